@@ -1,15 +1,25 @@
 //! The values of parameters set to `auto`, estimated from the image (section 7.3).
 
 use crate::params::{Parameter, Params, Setting, UsedParams};
-use crate::photo::{CodingError, LinearImage, ShotNoise};
+use crate::photo::{CodingError, FULL_SCALE_COUNTS, LinearImage, ShotNoise};
 
 /// Least and largest estimate of σ0, counts. Below 1.5 counts every limit is so narrow that windows take noise for lines.
 const NOISE_RANGE: (f64, f64) = (1.5, 16.0);
 /// The intensity, as a share of full scale, at which σ0 contains the error of lossy compression, which the windows do not see:
 /// that of a typical matte pixel.
 const TYPICAL_INTENSITY: f64 = 0.25;
+/// σ0 in standard deviations of the noise of a band.
+const NOISE_SIGMAS: f64 = 2.0;
 /// The paper's clipping threshold as a share of full scale.
-const CLIP_SHARE: f64 = 240.0 / 255.0;
+const CLIP_SHARE: f64 = Parameter::ClipThreshold.spec().paper / FULL_SCALE_COUNTS;
+/// Largest automatic radius of cylinders, counts: wider cylinders contain pixels of other objects.
+const MOST_RADIUS_COUNTS: f64 = 8.0;
+/// Least automatic radius of cylinders, σ0.
+const LEAST_RADIUS_NOISES: f64 = 2.0;
+/// Least and largest automatic side of a window, pixels.
+const WINDOW_RANGE_PX: (f64, f64) = (6.0, 40.0);
+/// Least automatic minimal area, pixels: two of the smallest windows.
+const LEAST_AREA_PX: f64 = 72.0;
 /// Number of pixels of the paper's images; windows and areas are proportional to the image size.
 const PAPER_PIXELS: f64 = 512.0 * 480.0;
 /// Number of pixels of an automatic working picture: twice those of the paper's images.
@@ -60,12 +70,15 @@ pub fn used_params(params: &Params, image: &LinearImage, factor: usize, noise: &
     let camera_noise = params.camera_noise.value().unwrap_or_else(|| {
         let Some(sigma) = noise.sigma else { return Parameter::CameraNoise.spec().paper };
         let unseen = unseen_sigma(params, noise, factor);
-        (2.0 * sigma).max(2.0 * unseen).clamp(NOISE_RANGE.0, NOISE_RANGE.1)
+        (NOISE_SIGMAS * sigma).max(NOISE_SIGMAS * unseen).clamp(NOISE_RANGE.0, NOISE_RANGE.1)
     });
-    let automatic_radius = (4.0 * camera_noise).min(8.0).max(2.0 * camera_noise);
+    let paper_radius = Parameter::CylinderWidth.spec().paper * camera_noise;
+    let automatic_radius = paper_radius.min(MOST_RADIUS_COUNTS).max(LEAST_RADIUS_NOISES * camera_noise);
     let width = |setting: Setting| setting.value().unwrap_or(automatic_radius / camera_noise);
     let scale = ((image.width() * image.height()) as f64 / PAPER_PIXELS).sqrt();
-    let window = (10.0 * scale).round().clamp(6.0, 40.0);
+    let paper_window = Parameter::WindowSize.spec().paper;
+    let window = (paper_window * scale).round().clamp(WINDOW_RANGE_PX.0, WINDOW_RANGE_PX.1);
+    let area = (Parameter::MinArea.spec().paper * scale * scale).round().max(LEAST_AREA_PX);
     let dark_per_noise = Parameter::MinIntensity.spec().paper / Parameter::CameraNoise.spec().paper;
     UsedParams {
         clip_threshold: limits.clip_threshold,
@@ -75,7 +88,7 @@ pub fn used_params(params: &Params, image: &LinearImage, factor: usize, noise: &
         cylinder_width: width(params.cylinder_width),
         slice_width: width(params.slice_width),
         window_size: params.window_size.value().unwrap_or(window),
-        min_area: params.min_area.value().unwrap_or((500.0 * scale * scale).round().max(72.0)),
+        min_area: params.min_area.value().unwrap_or(area),
         scale: factor as f64,
         illuminant: params.illuminant.direction(),
         second_illuminant: params.second_illuminant.direction(),
@@ -95,7 +108,7 @@ fn unseen_sigma(params: &Params, noise: &NoiseFindings, side: usize) -> f64 {
 /// windows do not show, and never below the `working` σ0, which is that of a mean of pixels.
 pub fn detail_noise(params: &Params, noise: &NoiseFindings, working: f64, sigma: Option<f64>) -> f64 {
     let unseen = unseen_sigma(params, noise, 1);
-    sigma.map_or(working, |sigma| (2.0 * sigma.max(unseen)).min(NOISE_RANGE.1).max(working))
+    sigma.map_or(working, |sigma| (NOISE_SIGMAS * sigma.max(unseen)).min(NOISE_RANGE.1).max(working))
 }
 
 fn number(params: &Params, parameter: Parameter) -> f64 {

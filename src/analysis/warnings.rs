@@ -86,7 +86,7 @@ fn marked_warnings(analysis: &Analysis, restricted: bool) -> Vec<String> {
             "the matte and the highlight line of the {which} pixels form no skewed T: all is body reflection"
         ),
     }));
-    for region in analysis.intrinsic.regions.iter().filter(|region| !region.model_fits) {
+    for region in analysis.intrinsic.regions.iter().filter(|region| !region.model_fits()) {
         all.push(format!(
             "one skewed T does not explain the {which} pixels: they lie {:.1} counts from its plane (rms), noise explains {:.1}; \
              they are not split",

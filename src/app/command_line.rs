@@ -5,6 +5,7 @@ use super::write::AREA_FILE;
 use crate::params::{
     AmbientSetting, IlluminantSetting, Method, Parameter, Params, PhoenixParameter, Reading, Switch,
 };
+use crate::truth::sample::CAMERA_FILE;
 use crate::view::Origin;
 use std::path::Path;
 
@@ -16,8 +17,8 @@ pub fn analyze_call(state: &State) -> String {
     match state.picture.as_ref().map(|picture| &picture.origin) {
         Some(Origin::File(path)) => words.push(quoted_path(path)),
         Some(Origin::Sample(name)) => {
-            words.push("camera8.png".to_owned());
-            hints.push(format!("camera8.png: the sample scene, assets/{name}/camera8.png in the source"));
+            words.push(CAMERA_FILE.to_owned());
+            hints.push(format!("{CAMERA_FILE}: the sample scene, assets/{name}/{CAMERA_FILE} in the source"));
         }
         Some(Origin::Bytes { name, .. }) => {
             words.push("PHOTO".to_owned());

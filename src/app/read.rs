@@ -5,7 +5,8 @@ use super::report::Report;
 use super::{FilesToOpen, Workspace};
 use crate::params::{Params, toml_error};
 use crate::photo::{self, ReadOptions};
-use crate::truth::{ForeignResult, GroundTruth, read_label_map, sample::Sample};
+use crate::truth::sample::{CAMERA_FILE, Sample};
+use crate::truth::{ForeignResult, GroundTruth, read_label_map};
 use crate::view::{Elsewhere, ElsewhereKind, ElsewherePaths, Histogram, Origin, Picture};
 use std::error::Error;
 use std::path::Path;
@@ -29,7 +30,7 @@ pub(super) fn picture(origin: Origin, options: ReadOptions) -> Result<Picture, S
             let Some(sample) = Sample::find(name) else {
                 return Err(format!("{name}: there is no such sample scene"));
             };
-            (photo::decode(sample.camera, "camera8.png", &options), photo::sha256_hex(sample.camera))
+            (photo::decode(sample.camera, CAMERA_FILE, &options), photo::sha256_hex(sample.camera))
         }
         Origin::Bytes { name, bytes } => (photo::decode(bytes, name, &options), photo::sha256_hex(bytes)),
     };

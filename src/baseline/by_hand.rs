@@ -31,8 +31,6 @@ use crate::trace::{
 pub const LEAST_MARKED_PX: usize = 20;
 /// The only hypothesis.
 const MARKED: HypothesisId = HypothesisId::from_index(0);
-/// Place on the matte line, as a share of its length, where the highlight line begins if a light was given and no highlight was found.
-const DEFAULT_START: f64 = 0.75;
 
 /// Why the marked pixels have no skewed T.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -114,7 +112,7 @@ pub fn marked_planar_region<R: Recorder>(
     recorded_labels.begin(Pass::Illuminant);
     let (illuminant, light) = light(input, highlight.as_ref(), recorded_labels.recorder);
     let plane = illuminant.and_then(|light| DichromaticPlane::new(&hypothesis.line, &light.direction.into()));
-    let default_start = hypothesis.line.foot() + hypothesis.line.direction * (DEFAULT_START * length);
+    let default_start = PlanarHypothesis::default_start(&hypothesis.line, length);
     let start = highlight.map_or(default_start, |line| line.start);
     recorded_labels.begin(Pass::Slices);
     if let (true, Some(plane)) = (R::KEEPS, plane) {

@@ -1,6 +1,6 @@
 //! `dichroscope compare`: label maps and diffuse pictures that were made elsewhere, held against a result.
 
-use super::one::{DEFAULT_CAMERA_FILE, Reference};
+use super::one::Reference;
 use super::reading::Reading;
 use super::{Outcome, note, print, table};
 use anyhow::{Context, Result, bail};
@@ -10,6 +10,7 @@ use dichroscope::export::{
     is_result_folder, read_report, write_difference, write_foreign_diffuse, write_foreign_labels,
 };
 use dichroscope::photo;
+use dichroscope::truth::sample::CAMERA_FILE;
 use dichroscope::truth::{self, Agreement, ForeignResult, ResultPictures, read_label_map, score};
 use std::path::{Path, PathBuf};
 
@@ -77,7 +78,7 @@ fn both_scores(
     result: &ResultPictures,
     report: &Report,
 ) -> Result<[Scores; 2]> {
-    let image = if report.image.file.is_empty() { DEFAULT_CAMERA_FILE } else { &report.image.file };
+    let image = if report.image.file.is_empty() { CAMERA_FILE } else { &report.image.file };
     let Reference { truth, camera } = Reference::read(folder, image, &arguments.reading.options())?;
     let outcome =
         truth::Outcome { regions: &result.regions, body: &result.body, surface: &result.surface, report };

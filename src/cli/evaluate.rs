@@ -1,6 +1,6 @@
 //! `dichroscope evaluate`: results against ground truth.
 
-use super::one::{DEFAULT_CAMERA_FILE, Reference};
+use super::one::Reference;
 use super::{Outcome, note, print, table};
 use anyhow::{Context, Result, anyhow, bail};
 use clap::Args;
@@ -8,6 +8,7 @@ use dichroscope::analysis::Session;
 use dichroscope::describe::{Report, Scores};
 use dichroscope::export::{is_result_folder, read_report};
 use dichroscope::photo::{self, ReadOptions};
+use dichroscope::truth::sample::CAMERA_FILE;
 use dichroscope::truth::{self, CandidateCounts, ResultPictures, find_truth, score};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -102,7 +103,7 @@ fn evaluate(arguments: &Arguments, name: &Path, folder: &Path) -> Result<(Scores
             bail!("--image {image}: not in {}", truth_folder.display())
         }
         Some(image) => image,
-        None if report.image.file.is_empty() => DEFAULT_CAMERA_FILE,
+        None if report.image.file.is_empty() => CAMERA_FILE,
         None => &report.image.file,
     };
     let Reference { truth, camera } = Reference::read(&truth_folder, image, &ReadOptions::default())?;

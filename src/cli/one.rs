@@ -9,13 +9,11 @@ use dichroscope::export::{FileChoice, WholeResult};
 use dichroscope::params::Params;
 use dichroscope::photo::{self, Photo, ReadOptions};
 use dichroscope::raster::{Mask, Raster, UNASSIGNED};
+use dichroscope::truth::sample::CAMERA_FILE;
 use dichroscope::truth::{self, GroundTruth, ReportInput};
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
-
-/// The photograph that truth folders hold, where a report does not name one of theirs.
-pub(super) const DEFAULT_CAMERA_FILE: &str = "camera8.png";
 
 /// A photograph that has been read.
 pub(super) struct LoadedPhoto {
@@ -77,7 +75,7 @@ impl Reference {
     /// Reads a truth folder and, in it, the photograph called `image` or else the usual one.
     pub(super) fn read(folder: &Path, image: &str, options: &ReadOptions) -> Result<Self> {
         let named = folder.join(image);
-        let path = if named.is_file() { named } else { folder.join(DEFAULT_CAMERA_FILE) };
+        let path = if named.is_file() { named } else { folder.join(CAMERA_FILE) };
         let truth = GroundTruth::read(folder)?;
         Ok(Self { truth, camera: photo::read(&path, options)?.image.pixels })
     }

@@ -8,7 +8,7 @@ use anyhow::{Context, Result};
 use dichroscope::export::{FileChoice, check_target};
 use dichroscope::params::Params;
 use dichroscope::photo::ReadOptions;
-use dichroscope::truth::sample::{NAME, SAMPLES};
+use dichroscope::truth::sample::{CAMERA_FILE, NAME, SAMPLES};
 use std::path::Path;
 
 const TARGET: &str = "dichroscope-sample";
@@ -27,7 +27,7 @@ pub(super) fn run() -> Result<Outcome> {
 }
 
 fn analyze(target: &Path) -> Result<String> {
-    let shot = LoadedPhoto::decode(SAMPLES[0].camera, "camera8.png", &ReadOptions::default())?;
+    let shot = LoadedPhoto::decode(SAMPLES[0].camera, CAMERA_FILE, &ReadOptions::default())?;
     let truth = SAMPLES[0].truth()?;
     let reference = Reference { truth, camera: shot.photo.image.pixels.clone() };
     let plan = Plan {

@@ -174,10 +174,8 @@ fn overlay(base: &Params, table: toml::Table) -> Result<Params> {
 
 fn method_parser() -> impl TypedValueParser<Value = Method> {
     let value = |method: Method| PossibleValue::new(method.name()).help(method.meaning());
-    PossibleValuesParser::new(Method::ALL.map(value)).map(|name| {
-        let named = Method::ALL.into_iter().find(|method| method.name() == name);
-        named.expect("invariant: only the methods' names are possible values")
-    })
+    PossibleValuesParser::new(Method::ALL.map(value))
+        .try_map(|name| Method::from_name(&name).ok_or("no such method"))
 }
 
 /// `maxmin=160` as a parameter of Phoenix and its value.
@@ -191,10 +189,8 @@ fn phoenix_value(text: &str) -> Result<(PhoenixParameter, u32), String> {
 }
 
 fn preset_parser() -> impl TypedValueParser<Value = Preset> {
-    PossibleValuesParser::new(Preset::ALL.map(Preset::name)).map(|name| {
-        let named = Preset::ALL.into_iter().find(|preset| preset.name() == name);
-        named.expect("invariant: only the presets' names are possible values")
-    })
+    PossibleValuesParser::new(Preset::ALL.map(Preset::name))
+        .try_map(|name| Preset::from_name(&name).ok_or("no such preset"))
 }
 
 fn switch_parser() -> impl TypedValueParser<Value = Switch> {

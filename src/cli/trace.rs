@@ -35,10 +35,8 @@ pub struct Arguments {
 }
 
 fn stage_parser() -> impl TypedValueParser<Value = Stage> {
-    PossibleValuesParser::new(Stage::ALL.map(Stage::name)).map(|name| {
-        let named = Stage::ALL.into_iter().find(|stage| stage.name() == name);
-        named.expect("invariant: only the stages' names are possible values")
-    })
+    PossibleValuesParser::new(Stage::ALL.map(Stage::name))
+        .try_map(|name| Stage::from_name(&name).ok_or("no such stage"))
 }
 
 pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {

@@ -84,7 +84,7 @@ impl From<&RegionReflection> for RegionFacts {
             fit_rms_counts: region.fit_rms_counts,
             fit_sigma_counts: region.fit_sigma_counts,
             fit_limit_counts: region.fit_limit_counts,
-            model_fits: region.model_fits,
+            model_fits: region.model_fits(),
             confidence: region.confidence,
             texture: region.texture,
             separable: region.separable,

@@ -1,13 +1,12 @@
 //! Writes pictures as arrays of `NumPy` (format version 1.0): 32-bit floats, rows first.
 
 use super::ExportError;
+use crate::photo::COUNTS_PER_UNIT;
 use crate::raster::Raster;
 use std::fs::File;
 use std::io::{BufWriter, Write};
 use std::path::Path;
 
-/// Counts that the value 1.0 stands for.
-const COUNTS_PER_UNIT: f32 = 255.0;
 /// Size that the header is a multiple of, bytes.
 const ALIGNMENT: usize = 64;
 

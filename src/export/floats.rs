@@ -4,6 +4,7 @@
 //! twice. The files of a photograph of 12 megapixels take a third less time to write; their values are the same.
 
 use super::ExportError;
+use crate::photo::COUNTS_PER_UNIT;
 use crate::raster::Raster;
 use flate2::Compression;
 use flate2::write::ZlibEncoder;
@@ -12,8 +13,6 @@ use std::fs::File;
 use std::io::{self, BufWriter, Write};
 use std::path::Path;
 
-/// Counts that the value 1.0 stands for.
-const COUNTS_PER_UNIT: f32 = 255.0;
 /// Number of lines of a block, which the compression ZIP prescribes.
 const LINES: usize = 16;
 /// Level of Deflate. Higher ones take twice the time for a twentieth of the size.

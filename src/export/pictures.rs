@@ -3,7 +3,7 @@
 use super::png::code_from_linear;
 use super::{ExportError, arrays, floats, png, stages};
 use crate::analysis::Analysis;
-use crate::photo::LinearImage;
+use crate::photo::{COUNTS_PER_UNIT, LinearImage};
 use crate::raster::{LabelMap, Raster};
 use rayon::prelude::*;
 use std::path::Path;
@@ -88,7 +88,7 @@ fn residual(input: &PictureInput) -> Raster<[f32; 3]> {
 
 /// Linear counts as sRGB values; 255 counts and more are white.
 pub(super) fn viewable(counts: &Raster<[f32; 3]>) -> Raster<[u8; 3]> {
-    counts.map(|color| color.map(|value| code_from_linear(value / 255.0)))
+    counts.map(|color| color.map(|value| code_from_linear(value / COUNTS_PER_UNIT)))
 }
 
 /// Shares as gray values, 0…1 as 0…255.

@@ -7,7 +7,6 @@ use super::theme::{SMALL_PT, ThemeColors};
 use super::{PanelContext, context_menu, widgets};
 use crate::app::{Edit, ViewCommand};
 use crate::intrinsic::{HighlightBranch, RegionReflection};
-use crate::segment::TEXTURE_CORRELATION;
 use crate::view::{Item, ResultSnapshot};
 use egui::{Align, Button, Color32, Label, Layout, RichText, Sense, Ui};
 use egui_extras::{Column, TableBuilder, TableRow};
@@ -255,15 +254,11 @@ fn cells(
     let rms = RichText::new(format!("{:.2}", region.fit_rms_counts));
     row.col(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let is_bad = !region.model_fits || region.fit_rms_counts > region.fit_limit_counts;
+            let is_bad = !region.model_fits() || region.fit_rms_counts > region.fit_limit_counts;
             let rms = if is_bad { rms.color(palette.warning) } else { rms };
             let label = ui.add(Label::new(rms).selectable(false));
-            if !region.model_fits {
-                label.on_hover_text(format!(
-                    "Does not hold: its pixels lie {:.1} counts from the plane (rms), or are texture ({:.2} of at most {TEXTURE_CORRELATION}). \
-                     Its plane is not used.",
-                    region.fit_rms_counts, region.texture
-                ));
+            if let Some(why) = crate::view::misfit_phrase(region) {
+                label.on_hover_text(format!("Does not hold: {why}. Its plane is not used."));
             } else if is_bad {
                 label.on_hover_text(format!(
                     "Beyond its limit of {:.1} counts (section 6).",

@@ -56,7 +56,7 @@ fn parts(cx: &PanelContext) -> Vec<StatusPart> {
         }
         parts.push(quiet(format!("\u{3c3}0 {:.2}{auto}", used.camera_noise)));
         let regions = &shown.analysis.intrinsic.regions;
-        let misfits = regions.iter().filter(|region| !region.model_fits).count();
+        let misfits = regions.iter().filter(|region| !region.model_fits()).count();
         let text = regions_and_coverage(regions.len(), misfits, shown.coverage);
         parts.push(StatusPart { text, is_bad: misfits > 0 });
         parts.push(quiet(duration_text(shown.total_ms())));

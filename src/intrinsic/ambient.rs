@@ -38,8 +38,6 @@ const PLACE_COUNTS: f64 = 0.15;
 const DIRECTION_DEG: f64 = 0.1;
 /// Number of pixels that count as one independent pixel: errors of neighboring pixels are correlated.
 const PIXELS_PER_INDEPENDENT: f64 = 4.0;
-/// 99.9 % quantile of χ² with three degrees of freedom.
-const SIGNIFICANT: f64 = 16.27;
 /// Largest distance of the lines from the common point, as a share of their distance from black.
 const BETTER: f64 = 0.5;
 /// Distance from the common point above which lines do not meet, standard deviations of the noise.
@@ -78,7 +76,7 @@ fn estimated(input: &AnalysisInput, regions: &FinalRegions, members: &Members) -
         return Ambient { subtracted: None, meeting, verdict: AmbientVerdict::FewLines };
     };
     let color = Vec3::from(found.counts);
-    let verdict = if found.chi_square <= SIGNIFICANT || color.norm() <= input.sigma() {
+    let verdict = if found.chi_square <= Meeting::SIGNIFICANT_CHI_SQUARE || color.norm() <= input.sigma() {
         if found.miss_counts[0] > FAR * input.sigma() {
             AmbientVerdict::NoMeeting
         } else {

@@ -38,7 +38,7 @@ pub(super) fn reject_regions_with_new_edges(
     if !input.refine.border_edges || !input.refine.region_holds {
         return;
     }
-    let model_fits: Vec<bool> = plans.iter().map(|plan| plan.model_fits).collect();
+    let model_fits: Vec<bool> = plans.iter().map(RegionPlan::model_fits).collect();
     let borders = Borders { input, labels, body: &images.body, model_fits: &model_fits };
     let new_edges = |index: usize| {
         let id = RegionId::from_index(index);
@@ -47,7 +47,7 @@ pub(super) fn reject_regions_with_new_edges(
     let counted: Vec<NewEdges> = (0..plans.len()).into_par_iter().map(new_edges).collect();
     for (plan, edges) in plans.iter_mut().zip(counted) {
         plan.fit.new_edges = edges;
-        plan.model_fits &= plan.fit.model_fits();
+        plan.judge_again();
     }
 }
 

@@ -39,7 +39,7 @@ pub(super) fn limit_surface_at_borders(
     let limited_pixel = |images: &Images, pixel: usize| {
         let plan = plans.get(RegionId::from_label(labels[pixel])?.index())?;
         let amount = sum_of_bands(images.surface[pixel]);
-        let can_be_mixed = plan.model_fits && amount > 0.0 && !input.masks.distorted(pixel);
+        let can_be_mixed = plan.model_fits() && amount > 0.0 && !input.masks.distorted(pixel);
         if !can_be_mixed || borders.is_inside(pixel, BorderKinds::All) {
             return None;
         }

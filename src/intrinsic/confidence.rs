@@ -6,7 +6,7 @@
 //! confidence is 0.
 
 use super::RegionReflection;
-use crate::raster::{LabelMap, Mask, Raster};
+use crate::raster::{LabelMap, Mask, Raster, RegionId};
 use crate::segment::RegionFit;
 use crate::trace::PixelKind;
 use rayon::prelude::*;
@@ -51,7 +51,7 @@ pub struct ConfidenceInput<'a> {
     /// The regions.
     pub regions: &'a [RegionReflection],
     /// What noise and coding explain of the distance of a pixel from the plane of each region (σ), counts, by
-    /// [`RegionId::index`](crate::raster::RegionId::index).
+    /// [`RegionId::index`].
     pub pixel_sigmas: &'a [f32],
 }
 
@@ -76,14 +76,13 @@ impl ConfidenceInput<'_> {
 
     /// The confidence of a pixel that its region explains.
     fn by_plane(&self, pixel: usize) -> f32 {
-        let region = self.regions.get(usize::from(self.labels[pixel]).wrapping_sub(1));
-        let of_region = region.map_or(0.0, |region| region.confidence as f32);
+        let Some(region) = RegionId::from_label(self.labels[pixel]) else { return 0.0 };
+        let of_region = self.regions.get(region.index()).map_or(0.0, |region| region.confidence as f32);
         let of_kind = match self.kinds[pixel] {
             PixelKind::Restored => RESTORED,
             PixelKind::Lost => LOST,
             _ => {
-                let index = usize::from(self.labels[pixel]).wrapping_sub(1);
-                let sigma = self.pixel_sigmas.get(index).copied().unwrap_or(0.0);
+                let sigma = self.pixel_sigmas.get(region.index()).copied().unwrap_or(0.0);
                 let off = self.noise[pixel].abs() / sigma.max(1e-9);
                 (2.0 - off / ZERO_CONFIDENCE_SIGMAS as f32).clamp(0.0, 1.0)
             }

@@ -88,7 +88,7 @@ fn explained_mask(detail: &Detail, working: &WorkingSplit) -> Mask {
                 *explained = true;
                 continue;
             };
-            if !plan.model_fits {
+            if !plan.model_fits() {
                 continue;
             }
             let place = detail.blocks.block_of(y * width + x);

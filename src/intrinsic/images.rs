@@ -5,7 +5,7 @@ use super::pixel::SplitPixel;
 use super::reason::Reason;
 use super::region_plan::RegionPlan;
 use super::restore::Distorted;
-use crate::raster::{LabelMap, Raster, RegionId, UNASSIGNED};
+use crate::raster::{LabelMap, Raster, RegionId};
 use crate::segment::{AnalysisInput, Members, Pixels};
 use crate::trace::{Ambient, PixelKind};
 use rayon::prelude::*;
@@ -40,7 +40,7 @@ struct RestoredPixel {
 }
 
 impl Images {
-    /// Splits the undistorted pixels by the plans of their regions, rows in parallel. `plans`: region `id` is at index `id − 1`.
+    /// Splits the undistorted pixels by the plans of their regions, by [`RegionId::index`], rows in parallel.
     pub(super) fn split_undistorted(input: &AnalysisInput, labels: &LabelMap, plans: &[RegionPlan]) -> Self {
         let (width, height) = (input.pixels.width(), input.pixels.height());
         let mut images = Self {
@@ -62,10 +62,11 @@ impl Images {
             // The input is copied row by row and not at once, so that the threads share the cost of fresh memory.
             body.copy_from_slice(input.pixels.row(y));
             for (x, &label) in labels.row(y).iter().enumerate() {
-                if label == UNASSIGNED || input.masks.distorted(y * width + x) {
+                let Some(region) = RegionId::from_label(label) else { continue };
+                if input.masks.distorted(y * width + x) {
                     continue;
                 }
-                let split = plans[usize::from(label) - 1].splitter.split(body[x]);
+                let split = plans[region.index()].splitter.split(body[x]);
                 (body[x], surface[x], noise[x], kinds[x]) =
                     (split.body, split.surface, split.noise, split.kind);
             }

@@ -28,6 +28,7 @@ pub use region_plan::{FittedPlace, RegionPlans};
 pub use split::{WorkingSplit, split};
 
 use crate::raster::{Raster, RegionId};
+pub use crate::segment::RegionVerdict;
 pub use crate::trace::{Ambient, AmbientVerdict, Meeting, PixelKind};
 
 /// The intrinsic images, and the report of each region.
@@ -100,21 +101,23 @@ pub struct RegionReflection {
     pub fit_sigma_counts: f64,
     /// Largest such distance of a region that the model fits, counts.
     pub fit_limit_counts: f64,
-    /// Whether one skewed T explains the region; where not, the region's plane is not used.
-    pub model_fits: bool,
+    /// Whether one skewed T explains the region; where not, why, and the region's plane is not used.
+    pub verdict: RegionVerdict,
     /// Confidence in the region's split, 0…1; 0 where the skewed T does not explain the region.
     pub confidence: f64,
     /// How much surface and body reflection vary against each other from pixel to pixel: 1 for a print, about 0 for highlights.
     pub texture: f64,
-    /// Interval of the light as a share of the angle between body and surface vector; 0 where no light is known or there is no
-    /// plane.
-    pub light_share: f64,
-    /// Whether the split would make edges at the border of the region that the photograph does not have, as of a part of an object.
-    pub has_new_edges: bool,
     /// Whether body and surface reflection can be separated.
     pub separable: bool,
     /// The adjacent regions, ascending.
     pub neighbors: Vec<RegionId>,
     /// Warnings about the region's split, each an English phrase.
     pub warnings: Vec<String>,
+}
+
+impl RegionReflection {
+    /// Whether one skewed T explains the region; where not, the region's plane is not used.
+    pub fn model_fits(&self) -> bool {
+        self.verdict.fits()
+    }
 }

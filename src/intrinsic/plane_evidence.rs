@@ -50,7 +50,7 @@ pub(super) fn reject_regions_without_evidence<'a>(
     let is_doubtful = |plan: &RegionPlan| {
         plan.fit.has_small_misfit() || (is_judged && (input.extended || plan.fit.has_doubtful_light()))
     };
-    let is_tested = |plan: &RegionPlan| plan.model_fits && plan.transform().is_some() && is_doubtful(plan);
+    let is_tested = |plan: &RegionPlan| plan.model_fits() && plan.transform().is_some() && is_doubtful(plan);
     if !plans.iter().any(is_tested) {
         return None;
     }
@@ -63,7 +63,7 @@ pub(super) fn reject_regions_without_evidence<'a>(
             .and_then(|observations| mean_probability(input, observations, images, pixels));
         // Where nothing tells of highlights, a small misfit counts against the region.
         plan.fit.highlights = measured.or(plan.fit.has_small_misfit().then_some(0.0));
-        plan.model_fits &= plan.fit.model_fits();
+        plan.judge_again();
     });
     observations
 }

@@ -6,9 +6,8 @@
 use super::RegionReflection;
 use crate::color::{Vec3, axis_angle_deg};
 use crate::photo::Masks;
-use crate::raster::{LabelMap, Mask, Raster, UNASSIGNED};
-
-use crate::segment::{MAX_LIGHT_SHARE, TEXTURE_CORRELATION};
+use crate::raster::{LabelMap, Mask, Raster, RegionId, UNASSIGNED};
+use crate::segment::RegionVerdict;
 use crate::trace::PixelKind;
 use rayon::prelude::*;
 
@@ -93,7 +92,7 @@ pub struct ReasonInput<'a> {
     pub regions: &'a [RegionReflection],
     /// Color of the light, unit; none where the light is not known.
     pub light: Option<[f64; 3]>,
-    /// What noise and coding explain of the distance of a pixel from the plane of each region (σ), counts, by `RegionId::index`.
+    /// What noise and coding explain of the distance of a pixel from the plane of each region (σ), counts, by [`RegionId::index`].
     pub pixel_sigmas: &'a [f32],
 }
 
@@ -112,47 +111,42 @@ impl ReasonInput<'_> {
     }
 
     /// Standard deviation of the distance of a region's pixels from the model, counts.
-    fn sigma_of(&self, label: u16) -> f32 {
-        self.pixel_sigmas.get(usize::from(label).wrapping_sub(1)).copied().unwrap_or(f32::INFINITY)
+    fn sigma_of(&self, region: RegionId) -> f32 {
+        self.pixel_sigmas.get(region.index()).copied().unwrap_or(f32::INFINITY)
     }
 
     /// The reason that applies to a region as a whole.
     fn of_region(&self, region: &RegionReflection) -> Reason {
         let collinear =
             |light: [f64; 3]| axis_angle_deg(&Vec3::from(region.body), &Vec3::from(light)) < COLLINEAR_DEG;
-        let is_near_plane = region.fit_limit_counts >= region.fit_rms_counts;
-        // A print of several colors lies off its plane as well; texture is the more specific reason.
-        if !region.model_fits && region.light_share > MAX_LIGHT_SHARE {
-            Reason::Collinear
-        } else if !region.model_fits && region.has_new_edges && is_near_plane {
-            Reason::PartOfObject
-        } else if !region.model_fits && (is_near_plane || region.texture > TEXTURE_CORRELATION) {
-            Reason::Texture
-        } else if !region.model_fits {
-            Reason::InterReflection
-        } else if !region.separable && self.light.is_some_and(collinear) {
-            Reason::Collinear
-        } else {
-            Reason::Explained
+        match region.verdict {
+            RegionVerdict::ColorOfLight => Reason::Collinear,
+            RegionVerdict::NewEdges => Reason::PartOfObject,
+            RegionVerdict::Texture | RegionVerdict::NoHighlights => Reason::Texture,
+            RegionVerdict::OffPlane => Reason::InterReflection,
+            RegionVerdict::Fits if !region.separable && self.light.is_some_and(collinear) => {
+                Reason::Collinear
+            }
+            RegionVerdict::Fits => Reason::Explained,
         }
     }
 
-    /// The reason of one pixel. `of_region`: the reasons of the regions; region `id` is at index `id − 1`.
+    /// The reason of one pixel. `of_region`: the reasons of the regions, by [`RegionId::index`].
     fn of_pixel(&self, pixel: usize, of_region: &[Reason]) -> Reason {
-        let label = self.labels[pixel];
-        if self.masks.dark(pixel) && label == UNASSIGNED {
+        let region = RegionId::from_label(self.labels[pixel]);
+        if self.masks.dark(pixel) && region.is_none() {
             return Reason::Shadow;
         }
         if self.kinds[pixel] == PixelKind::Lost {
             return Reason::ClippedAllBands;
         }
-        if label == UNASSIGNED {
+        let Some(region) = region else {
             return if self.at_a_border(pixel) { Reason::MixedBoundary } else { Reason::NoMatteLine };
-        }
-        let of_region = of_region.get(usize::from(label) - 1).copied().unwrap_or_default();
+        };
+        let of_region = of_region.get(region.index()).copied().unwrap_or_default();
         match of_region {
             Reason::Explained | Reason::Collinear if !self.explained_mask[pixel] => Reason::OtherObject,
-            Reason::Explained if self.noise[pixel].abs() > FAR_OFF * self.sigma_of(label) => {
+            Reason::Explained if self.noise[pixel].abs() > FAR_OFF * self.sigma_of(region) => {
                 if self.at_a_border(pixel) { Reason::MixedBoundary } else { Reason::InterReflection }
             }
             other => other,

@@ -74,14 +74,12 @@ impl RegionSummary<'_> {
             fit_rms_counts: fit.rms_counts,
             fit_sigma_counts: fit.sigma_counts,
             fit_limit_counts: fit.limits().rms_counts,
-            model_fits: plan.model_fits,
-            confidence: of_region(fit, plan.model_fits, angle_deg.filter(|_| separable)),
+            verdict: plan.verdict,
+            confidence: of_region(fit, plan.model_fits(), angle_deg.filter(|_| separable)),
             texture: fit.texture,
-            light_share: fit.light_share,
-            has_new_edges: fit.has_new_edges(),
             separable,
             neighbors,
-            warnings: self.warnings(plan, angle_deg),
+            warnings: self.warnings(input, plan, angle_deg),
             highlight_branches,
         }
     }
@@ -116,9 +114,8 @@ impl RegionSummary<'_> {
         pixels.into_iter().zip(plan.starts.iter().zip(&plan.start_bodies)).map(branch).collect()
     }
 
-    fn warnings(&self, plan: &RegionPlan, angle_deg: Option<f64>) -> Vec<String> {
+    fn warnings(&self, input: &AnalysisInput, plan: &RegionPlan, angle_deg: Option<f64>) -> Vec<String> {
         let mut warnings = Vec::new();
-        let fit = &plan.fit;
         match angle_deg {
             None if plan.splitter.keeps_color => {
                 warnings.push("no dichromatic plane: the region is not split".to_owned());
@@ -126,43 +123,7 @@ impl RegionSummary<'_> {
             None => warnings.push("no dichromatic plane: everything counts as body reflection".to_owned()),
             Some(angle) => warnings.extend(plan.angle_limits.warning(angle)),
         }
-        if fit.poor() {
-            let what = if plan.transform().is_some() { "plane" } else { "matte line" };
-            let (rms, limit) = (fit.rms_counts, fit.limits().rms_counts);
-            warnings.push(format!(
-                "poor fit: pixels lie {rms:.1} counts from the {what} (rms), {limit:.1} is noise"
-            ));
-        }
-        if fit.textured() {
-            warnings.push(format!(
-                "texture: surface and body vary against each other (correlation \u{2212}{:.2})",
-                fit.texture.min(1.0)
-            ));
-        }
-        if fit.has_color_of_light() {
-            warnings.push(format!(
-                "the light is uncertain by {:.1} times the angle between body and surface vector: body and surface reflection are \
-                 one color as far as is known",
-                fit.light_share
-            ));
-        }
-        if fit.has_new_edges() {
-            warnings.push(format!(
-                "part of an object: the split would make new edges at {:.0} % of the border",
-                100.0 * fit.new_edges.share()
-            ));
-        }
-        if let Some(highlights) = fit.highlights.filter(|_| fit.lacks_highlights()) {
-            warnings.push(format!(
-                "print or another color: what the plane takes for surface reflection is a highlight with a probability of {highlights:.2}"
-            ));
-        }
-        if !plan.model_fits {
-            warnings.push(
-                "the model does not hold: the plane is not used, what stands out locally is all that is split"
-                    .to_owned(),
-            );
-        }
+        warnings.extend(fit_warnings(input, plan));
         let foot = plan.hypothesis.matte.foot().norm();
         if foot > self.fit_sigma {
             warnings.push(format!(
@@ -176,6 +137,51 @@ impl RegionSummary<'_> {
         warnings.extend(several_highlights(&plan.start_bodies));
         warnings
     }
+}
+
+/// The warnings about the measures beyond the limits of a region that the model fits.
+fn fit_warnings(input: &AnalysisInput, plan: &RegionPlan) -> Vec<String> {
+    let mut warnings = Vec::new();
+    let fit = &plan.fit;
+    if fit.poor() {
+        let what = if plan.transform().is_some() { "plane" } else { "matte line" };
+        let (rms, limit) = (fit.rms_counts, fit.limits().rms_counts);
+        warnings
+            .push(format!("poor fit: pixels lie {rms:.1} counts from the {what} (rms), {limit:.1} is noise"));
+    }
+    if fit.textured() {
+        warnings.push(format!(
+            "texture: surface and body vary against each other (correlation \u{2212}{:.2})",
+            fit.texture.min(1.0)
+        ));
+    }
+    if fit.has_color_of_light() {
+        warnings.push(format!(
+            "the light is uncertain by {:.1} times the angle between body and surface vector: body and surface reflection are \
+             one color as far as is known",
+            fit.light_share
+        ));
+    }
+    if fit.has_new_edges() {
+        warnings.push(format!(
+            "part of an object: the split would make new edges at {:.0} % of the border",
+            100.0 * fit.new_edges.share()
+        ));
+    }
+    if let Some(highlights) = fit.highlights.filter(|_| fit.lacks_highlights()) {
+        warnings.push(format!(
+            "print or another color: what the plane takes for surface reflection is a highlight with a probability of {highlights:.2}"
+        ));
+    }
+    if !plan.model_fits() {
+        let pixels = if input.refine.local_split {
+            "the local split alone divides its pixels"
+        } else {
+            "its pixels are not split"
+        };
+        warnings.push(format!("the model does not hold: the plane of the region is not used, {pixels}"));
+    }
+    warnings
 }
 
 /// The warning about highlights on different amounts of body reflection `bodies`, counts; none for fewer than two.

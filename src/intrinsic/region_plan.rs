@@ -8,7 +8,7 @@ use crate::raster::RegionId;
 use crate::reflection::{AmountRule, HighlightTest, ReflectionTransform};
 use crate::segment::{
     AnalysisInput, BranchSearch, Branches, FinalRegions, FittedPlane, LightFindings, Pixels,
-    PlanarHypothesis, RegionFit,
+    PlanarHypothesis, RegionFit, RegionVerdict,
 };
 use crate::trace::VectorsFitted;
 
@@ -27,8 +27,8 @@ pub(super) struct RegionPlan {
     pub(super) splitter: PixelSplitter,
     /// How well the region's pixels agree with the vectors.
     pub(super) fit: RegionFit,
-    /// Whether the skewed T of the vectors explains the region; always true without refinement `region_holds`.
-    pub(super) model_fits: bool,
+    /// Whether the skewed T of the vectors explains the region, and where not, why; always `Fits` without refinement `region_holds`.
+    pub(super) verdict: RegionVerdict,
     /// Whether refinement `region_holds` asks if the skewed T explains the region.
     is_judged: bool,
     /// The groups of the region's highlights by the body reflection under them; empty without refinement `second_branch`.
@@ -80,7 +80,7 @@ impl RegionPlan {
             vectors,
             splitter: PixelSplitter { rule, highlight_test, keeps_color },
             fit,
-            model_fits: !input.refine.region_holds || holds(input, &fit),
+            verdict: first_verdict(input, &fit),
             is_judged: input.refine.region_holds,
             branches: Branches::default(),
             starts: vec![hypothesis.start],
@@ -124,6 +124,18 @@ impl RegionPlan {
         self.splitter.rule.transform()
     }
 
+    /// Whether the skewed T of the vectors explains the region.
+    pub(super) fn model_fits(&self) -> bool {
+        self.verdict.fits()
+    }
+
+    /// Judges the region again after another measure was taken. A region that was rejected stays so, for the first reason.
+    pub(super) fn judge_again(&mut self) {
+        if self.verdict.fits() {
+            self.verdict = self.fit.verdict();
+        }
+    }
+
     /// The groups of the region's highlights.
     pub(super) fn branches(&self) -> &Branches {
         &self.branches
@@ -164,7 +176,7 @@ impl RegionPlan {
             least_offset: self.splitter.rule.least_offset(),
             figures: self.fit.figures(),
             limits: self.fit.limits(),
-            model_fits: self.model_fits,
+            model_fits: self.model_fits(),
             is_judged: self.is_judged,
             origin: *origin,
             unsplit: self.splitter.keeps_color,
@@ -223,9 +235,15 @@ fn light_share(light: &LightFindings, transform: Option<&ReflectionTransform>) -
     light.interval_deg.zip(angle_deg).map_or(0.0, |(interval_deg, angle_deg)| interval_deg / angle_deg)
 }
 
-/// Whether the model fits a region. Of marked pixels the distance from the plane alone decides: a person has said that they are one object.
-fn holds(input: &AnalysisInput, fit: &RegionFit) -> bool {
-    if input.is_marked() { !fit.poor() } else { fit.model_fits() }
+/// Whether the model fits a region, by the measures that are taken before the pixels are split.
+fn first_verdict(input: &AnalysisInput, fit: &RegionFit) -> RegionVerdict {
+    if !input.refine.region_holds {
+        RegionVerdict::Fits
+    } else if input.is_marked() {
+        fit.verdict_of_marked()
+    } else {
+        fit.verdict()
+    }
 }
 
 /// A point of the plane or line with which the pixels of a region are compared, counts. The split is linear, so that its plane contains

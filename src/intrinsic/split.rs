@@ -131,11 +131,11 @@ fn split_from<R: Recorder>(
     let plans = &found.plans;
     record_plans(origin, plans, recorder);
     if R::KEEPS && input.refine.border_mixtures {
-        let fits = |label: u16| RegionId::from_label(label).is_some_and(|id| plans[id.index()].model_fits);
+        let fits = |label: u16| RegionId::from_label(label).is_some_and(|id| plans[id.index()].model_fits());
         limited.pixels.retain(|limited| fits(regions.labels[limited.pixel.index()]));
         recorder.record(limited);
     }
-    let model_fits: Vec<bool> = plans.iter().map(|plan| plan.model_fits).collect();
+    let model_fits: Vec<bool> = plans.iter().map(RegionPlan::model_fits).collect();
     found.explained_mask = explained_mask(input, regions, members, &model_fits, &images.kinds);
     remove_far_colors(input, &regions.labels, plans, &mut found.explained_mask);
     let explained_mask = &found.explained_mask;

@@ -34,6 +34,11 @@ impl Method {
         }
     }
 
+    /// The method with this name; none where no method has the name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|method| method.name() == name)
+    }
+
     /// What the method is, in one sentence.
     pub const fn meaning(self) -> &'static str {
         match self {
@@ -49,5 +54,16 @@ impl Method {
                 "One skewed T fitted to the pixels of an area that a person has marked, as in 1987 and 1988 (section 6)."
             }
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_method_is_found_by_its_name() {
+        assert!(Method::ALL.iter().all(|&method| Method::from_name(method.name()) == Some(method)));
+        assert_eq!(Method::from_name("Refined"), None);
     }
 }

@@ -34,6 +34,11 @@ impl Preset {
         }
     }
 
+    /// The preset with this name; none where no preset has the name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|preset| preset.name() == name)
+    }
+
     /// The paper's heading of the column.
     pub const fn title(self) -> &'static str {
         match self {
@@ -73,6 +78,7 @@ mod tests {
         assert_eq!(Preset::Plastic.params(), Params::paper());
         for preset in Preset::ALL {
             assert!(preset.params().validate().is_ok());
+            assert_eq!(Preset::from_name(preset.name()), Some(preset));
             let same = Preset::ALL.iter().filter(|other| other.params() == preset.params());
             assert_eq!(same.count(), 1, "{}", preset.name());
         }

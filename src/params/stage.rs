@@ -36,4 +36,20 @@ impl Stage {
             Self::Split => "split",
         }
     }
+
+    /// The stage with this name; none where no stage has the name.
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|stage| stage.name() == name)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_stage_is_found_by_its_name() {
+        assert!(Stage::ALL.iter().all(|&stage| Stage::from_name(stage.name()) == Some(stage)));
+        assert_eq!(Stage::from_name("mask"), None);
+    }
 }

@@ -26,6 +26,7 @@ mod working;
 pub use coding::{CodingCause, CodingError, Compression, LossyCompression};
 pub use curve::ToneCurve;
 pub(crate) use curve::nearest_code;
+pub(crate) use decode::believable_pixels;
 pub use digest::sha256_hex;
 pub use encoding::{Encoding, EncodingChoice, InvalidEncoding};
 pub use error::ReadError;
@@ -44,6 +45,9 @@ use std::path::Path;
 
 /// Default number of counts at full scale.
 pub const FULL_SCALE_COUNTS: f64 = 255.0;
+
+/// Counts that 1.0 stands for in the files of a result, whatever the full scale of the photograph.
+pub(crate) const COUNTS_PER_UNIT: f32 = 255.0;
 
 /// Options for reading files.
 #[derive(Clone, Copy, Debug, PartialEq)]

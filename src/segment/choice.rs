@@ -23,7 +23,7 @@
 //!
 //! [`choose_light`] is the whole rule. The function reads its arguments only; `planar` carries the decision out.
 
-use super::illuminant::{unusualness, white_offsets_deg};
+use super::illuminant::{MOST_LAMP_OFFSETS_DEG, unusualness, white_offsets_deg};
 use super::plane_light::PlaneLight;
 use super::vote_light::VoteLight;
 use crate::color::{Vec3, axis_angle_deg};
@@ -34,7 +34,7 @@ pub const LIGHT_LIMITS: LightLimits = LightLimits {
     log_odds: 0.5,
     share: 0.01,
     share_without_planes: 0.02,
-    offsets_deg: [20.0, 8.0],
+    offsets_deg: MOST_LAMP_OFFSETS_DEG,
     body_share: 0.1,
     body_offset_deg: 9.0,
     planes_offsets_deg: [40.0, 20.0],

@@ -4,12 +4,19 @@
 //! direction within that plane (`in_plane`) is a second constraint.
 
 use super::illuminant::Constraint;
-use super::in_plane::{InPlane, Rise};
+use super::in_plane::{InPlane, LEAST_ALONG_SHARE, MOST_HEIGHT_PER_OFFSET, Rise};
 use super::input::AnalysisInput;
 use super::recorded_labels::Pixels;
 use crate::color::Vec3;
 use crate::raster::{HypothesisId, LabelMap, Mask, Raster, UNASSIGNED};
-use crate::reflection::DichromaticPlane;
+use crate::reflection::{DichromaticPlane, PlanePoint};
+
+/// Least offset from the matte line of a pixel that tells of the plane, as a share of the cylinder's radius.
+const LEAST_OFFSET_RADII: f32 = 0.75;
+/// Least standard deviation of a plane's normal, degrees.
+const PLANE_FLOOR_DEG: f64 = 0.4;
+/// Least standard deviation of a direction within a plane, degrees.
+const DIRECTION_FLOOR_DEG: f64 = 2.0;
 
 /// Unclaimed pixels whose colors lie near a dichromatic plane, on the illuminant's side of the matte line, and that are
 /// connected to the matte region by such pixels within 8 px. `matte_length` in counts; `pixels`: those of the matte region.
@@ -22,8 +29,8 @@ pub fn nearby_highlight(
 ) -> Vec<u32> {
     const REACH_PX: usize = 8;
     let axes = plane.coordinates();
-    let least_offset = 0.75 * input.used.radius_counts() as f32;
-    let least_along = 0.3 * matte_length as f32;
+    let least_offset = LEAST_OFFSET_RADII * input.used.radius_counts() as f32;
+    let least_along = LEAST_ALONG_SHARE as f32 * matte_length as f32;
     let mut seen: Mask = Raster::filled(labels.width(), labels.height(), false);
     let mut ring = Vec::new();
     let mut step = |from: &mut dyn Iterator<Item = u32>| -> Vec<u32> {
@@ -34,8 +41,7 @@ pub fn nearby_highlight(
                     return;
                 }
                 let point = axes.of(input.pixels[near]);
-                let inside = point.offset > least_offset && point.height.abs() < point.offset / 2.0;
-                if inside && point.along > least_along {
+                if point.offset > least_offset && is_near_plane(&point) && point.along > least_along {
                     seen[near] = true;
                     next.push(near as u32);
                 }
@@ -52,6 +58,11 @@ pub fn nearby_highlight(
     found
 }
 
+/// Whether a color lies at a small angle to the plane.
+fn is_near_plane(point: &PlanePoint) -> bool {
+    point.height.abs() < MOST_HEIGHT_PER_OFFSET * point.offset
+}
+
 /// The constraint by the plane in which a region's highlights rise above their surroundings. Without a highlight (`rise` is
 /// `None`) it is the constraint by all pixels, with a larger variance.
 pub fn plane_of_highlights(by_all: &Constraint, plane: &DichromaticPlane, rise: Option<&Rise>) -> Constraint {
@@ -59,12 +70,9 @@ pub fn plane_of_highlights(by_all: &Constraint, plane: &DichromaticPlane, rise: 
     let Some(rise) = rise else {
         return Constraint { variance_deg2: by_all.variance_deg2 + FAINT_DEG * FAINT_DEG, ..*by_all };
     };
-    let variance_deg2 = rise.variance * 1f64.to_degrees().powi(2) + FLOOR_DEG * FLOOR_DEG;
+    let variance_deg2 = rise.variance * 1f64.to_degrees().powi(2) + PLANE_FLOOR_DEG * PLANE_FLOOR_DEG;
     Constraint { normal: normal_of(plane, rise.tangent), variance_deg2, ..*by_all }
 }
-
-/// Least standard deviation of a plane's normal, degrees.
-const FLOOR_DEG: f64 = 0.4;
 
 /// The normal of the plane through the matte line that is inclined to `plane` by the angle with this tangent.
 fn normal_of(plane: &DichromaticPlane, tangent: f64) -> Vec3 {
@@ -87,8 +95,8 @@ pub fn plane_constraint(
     let points: Vec<(f64, f64)> = pixels
         .filter(|&pixel| input.masks.usable(pixel as usize))
         .map(|pixel| axes.of(input.pixels[pixel as usize]))
-        .filter(|p| p.offset > 0.75 * radius && p.height.abs() < p.offset / 2.0)
-        .filter(|p| f64::from(p.along) > 0.3 * matte_length)
+        .filter(|p| p.offset > LEAST_OFFSET_RADII * radius && is_near_plane(p))
+        .filter(|p| f64::from(p.along) > LEAST_ALONG_SHARE * matte_length)
         .map(|p| (f64::from(p.offset), f64::from(p.height)))
         .collect();
     let fit = robust_slope(&points, sigma)?;
@@ -99,7 +107,8 @@ pub fn plane_constraint(
     Some(Constraint {
         hypothesis,
         normal: normal_of(plane, fit.tangent),
-        variance_deg2: per_pixel / fit.squares * 1f64.to_degrees().powi(2) + FLOOR_DEG * FLOOR_DEG,
+        variance_deg2: per_pixel / fit.squares * 1f64.to_degrees().powi(2)
+            + PLANE_FLOOR_DEG * PLANE_FLOOR_DEG,
         residual_scale_deg: 1.0,
         // Pixels that scatter about the plane by more than the noise are no highlight on one material.
         reliability: (POOR_FIT * sigma / fit.residual).powi(2).min(1.0),
@@ -118,16 +127,25 @@ struct Slope {
     residual: f64,
 }
 
-/// Fits height = tangent · offset with Tukey's weights, whose scale decreases from 8 σ to the scale of the noise. `None` where
+/// Scale of Tukey's weights in the first round of the fit, σ.
+const FIRST_SCALE_SIGMAS: f64 = 8.0;
+/// Least scale of Tukey's weights, σ.
+const LEAST_SCALE_SIGMAS: f64 = 1.5;
+/// Residual from which on the weight is 0, in scales.
+const TUNING: f64 = 4.0;
+/// Rounds of the fit.
+const SLOPE_ROUNDS: usize = 10;
+
+/// Fits height = tangent · offset with Tukey's weights, whose scale decreases from [`FIRST_SCALE_SIGMAS`] to the scale of the noise. `None` where
 /// no point has weight.
 fn robust_slope(points: &[(f64, f64)], sigma: f64) -> Option<Slope> {
     let mut fit = Slope { tangent: 0.0, squares: 0.0, weight: 0.0, residual: 0.0 };
-    let mut scale = 8.0 * sigma;
-    for _ in 0..10 {
+    let mut scale = FIRST_SCALE_SIGMAS * sigma;
+    for _ in 0..SLOPE_ROUNDS {
         let (mut product, mut squares, mut weight_sum, mut residuals) = (0.0, 0.0, 0.0, 0.0);
         for &(offset, height) in points {
             let residual = height - fit.tangent * offset;
-            let u = residual / (4.0 * scale);
+            let u = residual / (TUNING * scale);
             if u.abs() < 1.0 {
                 let weight = (1.0 - u * u).powi(2);
                 product += weight * offset * height;
@@ -141,7 +159,7 @@ fn robust_slope(points: &[(f64, f64)], sigma: f64) -> Option<Slope> {
         }
         let residual = (residuals / weight_sum).sqrt();
         fit = Slope { tangent: product / squares, squares, weight: weight_sum, residual };
-        scale = (scale / 2.0).max(1.5 * sigma).max(residual);
+        scale = (scale / 2.0).max(LEAST_SCALE_SIGMAS * sigma).max(residual);
     }
     Some(fit)
 }
@@ -149,10 +167,10 @@ fn robust_slope(points: &[(f64, f64)], sigma: f64) -> Option<Slope> {
 /// The constraint by an in-plane estimate: the illuminant lies at the estimated angle from the matte line, within the plane
 /// of the constraint `lies_in`.
 pub fn branch_constraint(lies_in: &Constraint, plane: &DichromaticPlane, branch: &InPlane) -> Constraint {
-    const FLOOR_DEG: f64 = 2.0;
     let inward = lies_in.normal.cross(&plane.matte.direction);
     let light = (plane.matte.direction * branch.cotangent + inward).normalize();
-    let variance_deg2 = branch.variance_rad2 * 1f64.to_degrees().powi(2) + FLOOR_DEG * FLOOR_DEG;
+    let variance_deg2 =
+        branch.variance_rad2 * 1f64.to_degrees().powi(2) + DIRECTION_FLOOR_DEG * DIRECTION_FLOOR_DEG;
     Constraint {
         hypothesis: lies_in.hypothesis,
         normal: lies_in.normal.cross(&light),

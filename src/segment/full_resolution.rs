@@ -82,24 +82,32 @@ pub enum PlaceRule {
     },
 }
 
+impl PlaceRule {
+    /// The rule that decides pixel `pixel` of a photograph with `masks`, whose working pixel lies at `places`. Regions of the second look
+    /// are found later.
+    #[inline]
+    fn of(pixel: usize, masks: &Masks, places: &Places) -> Self {
+        if masks.dark(pixel) {
+            Self::Dark
+        } else if masks.distorted(pixel) {
+            Self::Distorted
+        } else if places.others().is_empty() {
+            Self::Inside
+        } else {
+            Self::Border
+        }
+    }
+}
+
 impl PixelPlace {
     /// The place of pixel `pixel` of a photograph with `masks` and regions `labels`, whose working picture has the regions `working`.
     pub fn of(pixel: usize, masks: &Masks, labels: &LabelMap, working: &LabelMap, blocks: &Blocks) -> Self {
         let places = Places::around(working, blocks.block_of(pixel));
-        let rule = if masks.dark(pixel) {
-            PlaceRule::Dark
-        } else if masks.distorted(pixel) {
-            PlaceRule::Distorted
-        } else if places.others().is_empty() {
-            PlaceRule::Inside
-        } else {
-            PlaceRule::Border
-        };
         Self {
             side: blocks.side(),
             working_region: RegionId::from_label(places.own),
             region: RegionId::from_label(labels[pixel]),
-            rule,
+            rule: PlaceRule::of(pixel, masks, &places),
         }
     }
 }
@@ -180,13 +188,11 @@ impl BorderChoice {
     /// The label of pixel `pixel` of the photograph `input`, whose working pixel lies at `places`.
     #[inline]
     pub fn label(&self, input: &AnalysisInput, pixel: usize, places: &Places) -> u16 {
-        if input.masks.dark(pixel) {
-            return UNASSIGNED;
+        match PlaceRule::of(pixel, input.masks, places) {
+            PlaceRule::Dark => UNASSIGNED,
+            PlaceRule::Border => self.nearest(input.pixels[pixel], places),
+            PlaceRule::Distorted | PlaceRule::Inside | PlaceRule::SecondLook { .. } => places.own,
         }
-        if places.others().is_empty() || input.masks.distorted(pixel) {
-            return places.own;
-        }
-        self.nearest(input.pixels[pixel], places)
     }
 
     /// The label of the region that fits a color best; of none where the color fits none. Of equally near regions the working pixel's

@@ -113,18 +113,25 @@ fn interval_deg(constraints: &[Constraint], prior: &Prior, direction: &Vec3) -> 
 /// Number of the strongest constraints whose pairwise intersections are starts of the search.
 const MAX_PAIRED: usize = 8;
 /// Least value of a band in the unit direction of a light.
-const LEAST_BAND: f64 = 0.02;
+pub const LEAST_BAND: f64 = 0.02;
+/// Largest distance from white of a lamp that rests on highlights alone: blue to yellow, green to magenta, degrees.
+pub const MOST_LAMP_OFFSETS_DEG: [f64; 2] = [20.0, 8.0];
 /// Standard deviations of the colors of lights about white: yellow to blue, green to magenta, degrees.
 const WHITE_SD_DEG: [f64; 2] = [14.0, 6.0];
 
 /// Largest cost of an unusual light, in satisfied constraints: more constraints than that outweigh the cost.
 const MOST_UNUSUAL: f64 = 3.0;
 
+/// Largest number of rounds of the search for a minimum.
+const MOST_ROUNDS: usize = 12;
+/// Turn of the direction below which the search ends, radians.
+const SETTLED_RAD: f64 = 1e-6;
+
 /// The minimum nearest to `start`, by reweighted smallest eigenvectors.
 fn nearest_minimum(constraints: &[Constraint], prior: &Prior, start: Vec3) -> Vec3 {
     let across_prior = Matrix3::identity() - prior.direction * prior.direction.transpose();
     let mut direction = start;
-    for _ in 0..12 {
+    for _ in 0..MOST_ROUNDS {
         let mut sum = across_prior / prior.sd_deg.powi(2);
         for constraint in constraints {
             sum += constraint.normal * constraint.normal.transpose() * weight(constraint, &direction);
@@ -133,7 +140,7 @@ fn nearest_minimum(constraints: &[Constraint], prior: &Prior, start: Vec3) -> Ve
         let next = axes[2] * if axes[2].sum() < 0.0 { -1.0 } else { 1.0 };
         let turned = next.cross(&direction).norm();
         direction = next;
-        if turned < 1e-6 {
+        if turned < SETTLED_RAD {
             break;
         }
     }

@@ -139,7 +139,7 @@ pub fn line_fit(input: &AnalysisInput, iterations: usize) -> RobustFitSettings {
     RobustFitSettings { sigma: input.sigma(), tuning: 4.0, iterations }
 }
 
-/// Grows the hypothesis `region` from an area's unclaimed pixels; with `robust_lines` fits and grows a second time. Returns
+/// Grows `hypothesis` from an area's unclaimed pixels; with `robust_lines` fits and grows a second time. Returns
 /// the region's pixels.
 fn exploit<R: Recorder>(
     input: &AnalysisInput,

@@ -37,18 +37,12 @@ pub fn matte_regions<R: Recorder>(
     let min_area_px = input.used.min_area as usize;
     let first = SeedAreaRules { min_area_px, points: false, through_black: false };
     linear(input, windows, areas, &first, &mut hypotheses, &mut recorded_labels);
-    for round in 0..3 {
-        if input.refine.absorb_highlights {
-            recorded_labels.begin(Pass::Absorbing);
-        }
-        let released = input.refine.absorb_highlights && absorb(input, &mut hypotheses, &mut recorded_labels);
-        // Without newly released pixels a second look would find the same as the one before.
-        if round == 2 || (round == 1 && !released) {
-            break;
-        }
-        if input.refine.second_look {
-            second_look(input, &mut hypotheses, &mut recorded_labels);
-        }
+    absorb_highlights(input, &mut hypotheses, &mut recorded_labels);
+    second_look(input, &mut hypotheses, &mut recorded_labels);
+    // Without newly released pixels another second look would find the same.
+    if absorb_highlights(input, &mut hypotheses, &mut recorded_labels) {
+        second_look(input, &mut hypotheses, &mut recorded_labels);
+        absorb_highlights(input, &mut hypotheses, &mut recorded_labels);
     }
     if input.refine.proximity_vote {
         recorded_labels.begin(Pass::Vote);
@@ -61,13 +55,29 @@ pub fn matte_regions<R: Recorder>(
     MatteRegions { labels: recorded_labels.labels, hypotheses }
 }
 
+/// Absorbs broad highlights into the regions of their objects (refinement `absorb_highlights`). Returns whether that released pixels.
+fn absorb_highlights<R: Recorder>(
+    input: &AnalysisInput,
+    hypotheses: &mut [Hypothesis],
+    recorded_labels: &mut RecordedLabels<R>,
+) -> bool {
+    if !input.refine.absorb_highlights {
+        return false;
+    }
+    recorded_labels.begin(Pass::Absorbing);
+    absorb(input, hypotheses, recorded_labels)
+}
+
 /// Repeats classification, merging and the linear stage on the leftover pixels, with smaller windows and areas, for objects
-/// that are smaller than the minimal area or whose colors vary too little for a line.
+/// that are smaller than the minimal area or whose colors vary too little for a line (refinement `second_look`).
 fn second_look<R: Recorder>(
     input: &AnalysisInput,
     hypotheses: &mut Vec<Hypothesis>,
     recorded_labels: &mut RecordedLabels<R>,
 ) {
+    if !input.refine.second_look {
+        return;
+    }
     for (size_px, min_area_px) in SECOND_LOOKS {
         if input.stopped() {
             return;

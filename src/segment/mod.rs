@@ -37,7 +37,7 @@ pub(crate) use branches::{BranchSearch, Branches};
 pub(crate) use candidates::{HighlightLine, MatteLine, is_of_candidate, marked_highlight_line};
 pub(crate) use choice::LIGHT_LIMITS;
 pub(crate) use linear::{line_fit, matte_length};
-pub(crate) use model_fit::{FittedPlane, MAX_LIGHT_SHARE, NewEdges, RegionFit, TEXTURE_CORRELATION};
+pub(crate) use model_fit::{FittedPlane, NewEdges, RegionFit};
 pub(crate) use recorded_labels::{Members, Pixels, RecordedLabels};
 pub(crate) use regions::{members, neighbors, parts};
 #[cfg(test)]
@@ -51,6 +51,7 @@ pub use light::{Illuminant, LightBasis, LightFindings, SecondLampFindings};
 pub use linear::Hypothesis;
 pub use matte::{MatteRegions, matte_regions};
 pub use merge::{Areas, merge};
+pub use model_fit::RegionVerdict;
 pub use planar::planar_regions;
 pub use planar_hypothesis::{PlanarHypothesis, PlanarRegions};
 pub use regions::{FinalRegions, final_regions};

@@ -47,13 +47,13 @@ const NO_MISFIT_COUNTS: f64 = 1.875;
 /// rims of highlights and objects.
 const MAX_RMS_SIGMAS_EXTENDED: f64 = 3.0;
 /// Anticorrelation of body and surface reflection that a textured region exceeds; the slope has to exceed [`TEXTURE_SLOPE`] as well.
-pub const TEXTURE_CORRELATION: f64 = 0.35;
+const TEXTURE_CORRELATION: f64 = 0.35;
 /// Decrease of body reflection per increase of surface reflection that a textured region exceeds.
 const TEXTURE_SLOPE: f64 = 0.35;
 /// Share of new edges at its border that a region of a part of an object exceeds.
 const MAX_NEW_EDGES: f64 = 0.12;
 /// Light error, as a share of the angle between body and surface vector, that a region of the light's color exceeds.
-pub const MAX_LIGHT_SHARE: f64 = 1.0;
+const MAX_LIGHT_SHARE: f64 = 1.0;
 /// Least mean probability of a highlight in the surface reflection of a region that the model fits.
 const MIN_HIGHLIGHTS: f64 = 0.3;
 /// The same of a region whose plane is doubtful: with a small misfit, or with a light that is hardly told from the body.
@@ -109,6 +109,32 @@ pub struct RegionFit {
     /// Mean probability of a highlight in the surface reflection of the plane, 0…1; none where it was not measured. 0 for a region
     /// with a small misfit and too little surface reflection to be judged.
     pub highlights: Option<f64>,
+}
+
+/// Whether the model fits a region, and where not, which measure decided.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+#[non_exhaustive]
+pub enum RegionVerdict {
+    /// One skewed T explains the region, or the run does not ask (refinement `region_holds`).
+    #[default]
+    Fits,
+    /// Body and surface reflection have one color as far as the light is known.
+    ColorOfLight,
+    /// Body and surface reflection vary against each other from pixel to pixel.
+    Texture,
+    /// The pixels lie farther from the plane, without a plane from the matte line, than noise and coding explain.
+    OffPlane,
+    /// The split would make edges at the border of the region that the photograph does not have, as of a part of an object.
+    NewEdges,
+    /// What the plane takes for surface reflection looks like print or another color.
+    NoHighlights,
+}
+
+impl RegionVerdict {
+    /// Whether the skewed T of the region is used.
+    pub fn fits(self) -> bool {
+        self == Self::Fits
+    }
 }
 
 /// The sides of the pixels of a region against lit pixels outside, and how many of the sides have an edge in the body image that the
@@ -245,8 +271,30 @@ impl RegionFit {
 
     /// Whether the model fits the region: one skewed T explains the pixels.
     pub fn model_fits(&self) -> bool {
-        let is_near = !self.poor() && !self.textured() && !self.has_color_of_light();
-        is_near && !self.has_new_edges() && !self.lacks_highlights()
+        self.verdict().fits()
+    }
+
+    /// Whether the model fits the region, and where not, the most specific of the measures beyond their limits. A print of several colors
+    /// lies off its plane as well; texture is the more specific reason.
+    pub fn verdict(&self) -> RegionVerdict {
+        if self.has_color_of_light() {
+            RegionVerdict::ColorOfLight
+        } else if self.textured() {
+            RegionVerdict::Texture
+        } else if self.poor() {
+            RegionVerdict::OffPlane
+        } else if self.has_new_edges() {
+            RegionVerdict::NewEdges
+        } else if self.lacks_highlights() {
+            RegionVerdict::NoHighlights
+        } else {
+            RegionVerdict::Fits
+        }
+    }
+
+    /// The verdict on a region that a person has marked as one object: the distance from the plane alone decides.
+    pub fn verdict_of_marked(&self) -> RegionVerdict {
+        if self.poor() { RegionVerdict::OffPlane } else { RegionVerdict::Fits }
     }
 }
 
@@ -382,6 +430,25 @@ mod tests {
     fn the_model_fits_shading_alone() {
         let found = fit(|x, y| (60.0 + x + (y / 6.0).sin() * y, 0.0));
         assert!(found.model_fits(), "{found:?}");
+    }
+
+    #[test]
+    fn the_verdict_names_the_most_specific_measure_beyond_its_limit() {
+        use RegionVerdict::{ColorOfLight, Fits, NewEdges as NewEdgesFound, NoHighlights, OffPlane, Texture};
+        let fits = RegionFit { sigma_counts: 1.0, limit_sigmas: 1.5, ..RegionFit::default() };
+        let off = RegionFit { rms_counts: 4.0, ..fits };
+        let print = RegionFit { texture: 0.9, texture_slope: 0.9, ..off };
+        let part = RegionFit { new_edges: NewEdges { sides: 100, new: 50 }, ..fits };
+        let white = RegionFit { highlights: Some(0.1), ..fits };
+        assert_eq!(
+            [fits, off, print, part, white].map(|fit| fit.verdict()),
+            [Fits, OffPlane, Texture, NewEdgesFound, NoHighlights]
+        );
+        let small_slope = RegionFit { texture_slope: 0.1, ..print };
+        assert_eq!(small_slope.verdict(), OffPlane, "texture needs both limits");
+        let like_light = RegionFit { light_share: 1.5, ..print };
+        assert_eq!(like_light.verdict(), ColorOfLight);
+        assert_eq!((like_light.verdict_of_marked(), part.verdict_of_marked()), (OffPlane, Fits));
     }
 
     #[test]

@@ -27,7 +27,16 @@ pub struct PlanarHypothesis {
     pub alive: bool,
 }
 
+/// Place on the matte line, as a share of its length, where the highlight line of a region without a highlight candidate begins.
+const DEFAULT_START: f64 = 0.75;
+
 impl PlanarHypothesis {
+    /// The point where the highlight line of a region without a highlight candidate begins, counts. `matte_length`: length of the matte
+    /// line from black, counts.
+    pub(crate) fn default_start(matte: &Line, matte_length: f64) -> Vec3 {
+        matte.foot() + matte.direction * (DEFAULT_START * matte_length)
+    }
+
     /// The same hypothesis with colors measured from `origin` (counts) instead of black.
     #[must_use]
     pub fn from_origin(&self, origin: &Vec3) -> Self {

@@ -23,9 +23,6 @@ use crate::raster::{HypothesisId, LabelMap, PixelIndex, UNASSIGNED};
 use crate::reflection::{DichromaticPlane, MIN_ANGLE_DEG, Slice};
 use crate::trace::{Contest, GrowthBegan, Measure, Pass, Recorder, SliceMade};
 
-/// Place on the matte line, as a share of its length, where the highlight line of a region without a candidate begins.
-const DEFAULT_START: f64 = 0.75;
-
 /// The regions of the planar stage: what the stage starts from, and what it has grown so far.
 pub struct PlanarState<'a, 's, R: Recorder> {
     /// The image, its masks and the parameters.
@@ -155,7 +152,7 @@ impl<'a, 's, R: Recorder> PlanarState<'a, 's, R> {
             .filter(|_| alive && (highlight_line.is_some() || self.input.refine.extend_planes))
             .and_then(|direction| DichromaticPlane::new(&line, &direction))
             .filter(|plane| plane.angle_deg() >= MIN_ANGLE_DEG || !self.input.refine.extend_planes);
-        let default_start = line.foot() + line.direction * (DEFAULT_START * matte_length);
+        let default_start = PlanarHypothesis::default_start(&line, matte_length);
         PlanarHypothesis {
             origin: HypothesisId::from_index(index),
             matte: line,

@@ -21,10 +21,10 @@ use rayon::prelude::*;
 /// Number of pixels that the in-plane fits of all regions look at together: their cost does not grow with the picture.
 const IN_PLANE_SAMPLES: usize = 16_000;
 /// Standard deviation of a prior from highlight lines, and of the prior white, degrees.
-const LINES_SD_DEG: f64 = 8.0;
-const WHITE_SD_DEG: f64 = 12.0;
+const LINES_PRIOR_SD_DEG: f64 = 8.0;
+const WHITE_PRIOR_SD_DEG: f64 = 12.0;
 /// Standard deviation of a prior that is the estimate of the round before, degrees.
-const ROUND_BEFORE_SD_DEG: f64 = 30.0;
+const ROUND_BEFORE_PRIOR_SD_DEG: f64 = 30.0;
 /// The interval of a direction of unknown error, degrees: every direction.
 const UNKNOWN_INTERVAL_DEG: f64 = 90.0;
 
@@ -122,7 +122,7 @@ pub fn estimate_beside_matte_regions<R: Recorder>(
     if constraints.is_empty() && by_lines.is_none() {
         return None;
     }
-    let sd_deg = if by_lines.is_some() { LINES_SD_DEG } else { WHITE_SD_DEG };
+    let sd_deg = if by_lines.is_some() { LINES_PRIOR_SD_DEG } else { WHITE_PRIOR_SD_DEG };
     let found = intersect(&constraints, &Prior { direction: start, sd_deg });
     let light = PlaneLight {
         direction: Some(found.direction),
@@ -169,8 +169,8 @@ pub fn estimate_from_grown_regions<R: Recorder>(
     let evidence = evidence_of_grown_regions(state, hypotheses);
     let has_highlights = evidence.iter().any(|evidence| evidence.highlights.is_some());
     let prior = match weighted_direction(&state.lines) {
-        Some(direction) if !has_highlights => Prior { direction, sd_deg: LINES_SD_DEG },
-        _ => Prior { direction: *before, sd_deg: ROUND_BEFORE_SD_DEG },
+        Some(direction) if !has_highlights => Prior { direction, sd_deg: LINES_PRIOR_SD_DEG },
+        _ => Prior { direction: *before, sd_deg: ROUND_BEFORE_PRIOR_SD_DEG },
     };
     let (found, two_light_test) = light_of(state.input, &evidence, &prior);
     let light = PlaneLight {

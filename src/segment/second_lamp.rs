@@ -12,7 +12,7 @@
 //! (`lit_regions`). A second lamp that was given is not sought: the regions' highlights only tell which of both lights each region.
 
 use super::evidence::{branch_constraint, plane_of_highlights};
-use super::illuminant::{Constraint, Prior, intersect, white_offsets_deg};
+use super::illuminant::{Constraint, MOST_LAMP_OFFSETS_DEG, Prior, intersect, white_offsets_deg};
 use super::lit_regions::{SecondLamp, lights_of_regions};
 use super::two_lights::Evidence;
 use crate::color::{Vec3, axis_angle_deg};
@@ -28,7 +28,7 @@ pub const LAMP_LIMITS: LampLimits = LampLimits {
     ample_regions: 3,
     merit: 0.6,
     angle_deg: 5.0,
-    offsets_deg: [20.0, 8.0],
+    offsets_deg: MOST_LAMP_OFFSETS_DEG,
 };
 /// Error that is added to two standard deviations of a constraint, degrees: of a plane, and of a direction within a plane.
 const MARGINS_DEG: [f64; 2] = [0.7, 1.5];

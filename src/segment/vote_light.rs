@@ -15,7 +15,7 @@
 //! error within 1° on most of 36 scenes with highlights, where the planes of printed objects are 8–18° off; on plain objects
 //! the planes are better (0.1°).
 
-use super::illuminant::{unusualness, white_offsets_deg};
+use super::illuminant::{LEAST_BAND, unusualness, white_offsets_deg};
 use super::input::AnalysisInput;
 use crate::color::{Vec3, dot, rgb, vec3};
 use crate::raster::{Components, Connectivity, Mask, Raster, Roi, blur, dilate};
@@ -47,8 +47,6 @@ const BEFORE_DEG: f64 = 3.0;
 const CONE_DEG: f64 = 32.0;
 /// Steps of the successive searches, degrees.
 const STEPS_DEG: [f64; 4] = [2.0, 1.0, 0.5, 0.25];
-/// Least value of a band in the unit direction of a light.
-const LEAST_BAND: f64 = 0.02;
 /// A vote below e to the power of minus this counts as 0.
 const NEGLIGIBLE: f64 = 8.0;
 /// The first, coarse search uses one of this many voters.

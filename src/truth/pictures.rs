@@ -1,14 +1,12 @@
 //! Label maps and linear pictures from files.
 
 use super::TruthError;
+use crate::photo::{COUNTS_PER_UNIT, believable_pixels};
 use crate::raster::{LabelMap, Raster};
 use exr::prelude::{ReadChannels, ReadLayers, read};
 use image::DynamicImage;
 use std::io::Cursor;
 use std::path::Path;
-
-/// Counts that 1.0 stands for in an EXR file.
-const COUNTS_PER_UNIT: f32 = 255.0;
 
 /// The pictures of a result folder from which scores are computed.
 #[derive(Clone, Debug, PartialEq)]
@@ -68,9 +66,9 @@ pub(super) fn decode_rgb_exr(bytes: &[u8], path: &Path) -> Result<Raster<[f32; 3
 fn expect_plausible(bytes: &[u8], path: &Path) -> Result<(), TruthError> {
     let header = exr::meta::MetaData::read_from_buffered(Cursor::new(bytes), false);
     let header = header.map_err(|source| TruthError::Exr { path: path.to_owned(), source })?;
-    let believed = SMALL_PICTURE + PIXELS_PER_BYTE * bytes.len();
+    let believed = believable_pixels(bytes.len());
     let fits = |size: exr::math::Vec2<usize>| {
-        size.width().checked_mul(size.height()).is_some_and(|pixels| pixels <= believed)
+        size.width().checked_mul(size.height()).is_some_and(|pixels| pixels as u64 <= believed)
     };
     if header.headers.iter().all(|header| fits(header.layer_size)) {
         return Ok(());
@@ -78,10 +76,6 @@ fn expect_plausible(bytes: &[u8], path: &Path) -> Result<(), TruthError> {
     let source = exr::error::Error::Invalid("size: more pixels than its bytes can hold".into());
     Err(TruthError::Exr { path: path.to_owned(), source })
 }
-
-/// Number of pixels that any file may declare, and number that each of its bytes may add.
-const SMALL_PICTURE: usize = 2_000_000;
-const PIXELS_PER_BYTE: usize = 2048;
 
 /// Integer labels of a gray picture, or of the red band of a color picture.
 pub(super) fn decode_labels(bytes: &[u8], path: &Path) -> Result<LabelMap, TruthError> {

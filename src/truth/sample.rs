@@ -3,6 +3,9 @@
 use super::{GroundTruth, TruthError, TruthFiles};
 use std::path::Path;
 
+/// Name of the photograph in the folder of a rendered scene, and of the photograph of each sample scene.
+pub const CAMERA_FILE: &str = "camera8.png";
+
 /// A sample scene in the program's binary.
 pub struct Sample {
     /// The scene's name.
@@ -83,7 +86,7 @@ mod tests {
         for sample in &SAMPLES {
             assert!(std::ptr::eq(Sample::find(sample.name).unwrap(), sample));
             let photo =
-                crate::photo::decode(sample.camera, "camera8.png", &crate::photo::ReadOptions::default());
+                crate::photo::decode(sample.camera, CAMERA_FILE, &crate::photo::ReadOptions::default());
             let (image, truth) = (photo.unwrap().image, sample.truth().unwrap());
             assert_eq!((truth.body.width(), truth.body.height()), (image.width(), image.height()));
         }

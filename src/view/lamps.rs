@@ -2,7 +2,7 @@
 
 use crate::analysis::Analysis;
 use crate::color::{Vec3, axis_angle_deg};
-use crate::intrinsic::{PixelKind, Reason};
+use crate::intrinsic::{PixelKind, Reason, RegionReflection};
 use crate::raster::{LabelMap, Mask, RegionId};
 
 /// One of the two lamps of a scene.
@@ -58,7 +58,7 @@ impl<'a> LampOfPixels<'a> {
         let intrinsic = &self.analysis.intrinsic;
         let region = RegionId::from_label(self.labels[pixel]).map(RegionId::index);
         let fits =
-            region.and_then(|region| intrinsic.regions.get(region)).is_some_and(|report| report.model_fits);
+            region.and_then(|region| intrinsic.regions.get(region)).is_some_and(RegionReflection::model_fits);
         let is_own = intrinsic.kinds[pixel] != PixelKind::Unassigned
             && intrinsic.reasons[pixel] != Reason::OtherObject;
         if fits && is_own {
@@ -101,7 +101,7 @@ mod tests {
         let explained = |pixel: usize| {
             let region = two.intrinsic.regions.get(usize::from(labels[pixel]).wrapping_sub(1));
             let is_own = two.intrinsic.reasons[pixel] != Reason::OtherObject;
-            is_own && region.is_some_and(|region| region.model_fits && region.surface.is_some())
+            is_own && region.is_some_and(|region| region.model_fits() && region.surface.is_some())
         };
         let of_regions: Vec<usize> = (0..labels.len()).filter(|&pixel| explained(pixel)).collect();
         assert!(

@@ -3,7 +3,7 @@
 use super::{Histogram, Origin, Picture, ResultSnapshot};
 use crate::analysis::{Analysis, Session};
 use crate::color::{Line, Vec3};
-use crate::intrinsic::{Intrinsic, RegionReflection};
+use crate::intrinsic::{Intrinsic, RegionReflection, RegionVerdict};
 use crate::params::Params;
 use crate::photo::{self, EncodingChoice, ReadOptions};
 use crate::raster::{HypothesisId, LabelMap, Raster, RegionId};
@@ -165,11 +165,9 @@ pub(crate) fn region(id: RegionId, pixels: usize) -> RegionReflection {
         fit_rms_counts: 1.5,
         fit_sigma_counts: 1.25,
         fit_limit_counts: 1.9,
-        model_fits: true,
+        verdict: RegionVerdict::Fits,
         confidence: 1.0,
         texture: 0.0,
-        light_share: 0.0,
-        has_new_edges: false,
         separable: true,
         neighbors: Vec::new(),
         warnings: Vec::new(),

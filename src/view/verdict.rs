@@ -1,10 +1,10 @@
 //! The verdict on a result: one sentence of clauses, each about something that can be shown.
 
 use super::{Layer, ResultSnapshot, counted};
-use crate::intrinsic::RegionReflection;
+use crate::intrinsic::{RegionReflection, RegionVerdict};
 use crate::params::Baseline;
 use crate::raster::RegionId;
-use crate::segment::{LightBasis, LightFindings, TEXTURE_CORRELATION};
+use crate::segment::{LightBasis, LightFindings};
 
 /// Half the interval of the light's direction from which the light counts as uncertain, degrees.
 pub const WIDE_INTERVAL_DEG: f64 = 10.0;
@@ -41,7 +41,7 @@ pub fn verdict(shown: &ResultSnapshot) -> Vec<Clause> {
         let text = reason.map_or("no region was found", String::as_str).trim_end_matches('.').to_owned();
         return vec![Clause { text, subject: ClauseSubject::Layer(Layer::Classes), is_bad: true }];
     }
-    let misfits: Vec<&RegionReflection> = regions.iter().filter(|region| !region.model_fits).collect();
+    let misfits: Vec<&RegionReflection> = regions.iter().filter(|region| !region.model_fits()).collect();
     let is_asked = shown.params.refinements().region_holds;
     let text = if is_asked { fitting_text(regions.len(), misfits.len()) } else { number_text(regions.len()) };
     let mut clauses =
@@ -69,17 +69,32 @@ fn fitting_text(regions: usize, misfits: usize) -> String {
     }
 }
 
+/// Why a region does not fit, as a phrase; none of a region that fits.
+pub fn misfit_phrase(region: &RegionReflection) -> Option<String> {
+    let phrase = match region.verdict {
+        RegionVerdict::ColorOfLight => "its color is the light's as far as is known",
+        RegionVerdict::Texture => "a print",
+        RegionVerdict::NewEdges => "only a part of an object",
+        RegionVerdict::NoHighlights => "a print or another color",
+        RegionVerdict::OffPlane => {
+            return Some(format!("its colors lie {:.1} counts off its plane", region.fit_rms_counts));
+        }
+        RegionVerdict::Fits => return None,
+    };
+    Some(phrase.to_owned())
+}
+
 /// What is the matter with the regions that do not fit; none where all fit. The clause is about the largest of them.
 fn misfit_clause(misfits: &[&RegionReflection]) -> Option<Clause> {
     let largest = misfits.iter().max_by_key(|region| region.pixels)?;
-    let prints = misfits.iter().filter(|region| region.texture > TEXTURE_CORRELATION).count();
+    let with = |verdict| misfits.iter().filter(|region| region.verdict == verdict).count();
+    let prints = with(RegionVerdict::Texture);
     let text = match (misfits.len(), prints) {
-        (1, 1) => format!("region {} is split locally: a print", largest.id),
-        (1, _) => format!(
-            "region {} is split locally: its colors lie {:.1} counts off its plane",
-            largest.id, largest.fit_rms_counts
-        ),
-        (all, 0) => format!("{all} are split locally: their colors lie off their planes"),
+        (1, _) => format!("region {} is split locally: {}", largest.id, misfit_phrase(largest)?),
+        (all, 0) if with(RegionVerdict::OffPlane) == all => {
+            format!("{all} are split locally: their colors lie off their planes")
+        }
+        (all, 0) => format!("{all} are split locally"),
         (all, prints) if all == prints => format!("{all} are split locally: prints"),
         (all, 1) => format!("{all} are split locally, 1 of them a print"),
         (all, prints) => format!("{all} are split locally, {prints} of them prints"),
@@ -166,11 +181,13 @@ mod tests {
 
     #[test]
     fn regions_that_do_not_fit_are_told_with_the_reason() {
-        let region = |label: u16, pixels: usize, texture: f64| {
+        let region = |label: u16, pixels: usize, verdict: RegionVerdict| {
             let id = RegionId::from_label(label).unwrap();
-            RegionReflection { fit_rms_counts: 5.12, texture, ..crate::view::testing::region(id, pixels) }
+            RegionReflection { fit_rms_counts: 5.12, verdict, ..crate::view::testing::region(id, pixels) }
         };
-        let (print, rough) = (region(4, 900, 0.9), region(2, 400, 0.1));
+        let print = region(4, 900, RegionVerdict::Texture);
+        let rough = region(2, 400, RegionVerdict::OffPlane);
+        let white = region(3, 100, RegionVerdict::ColorOfLight);
         let text = |misfits: &[&RegionReflection]| misfit_clause(misfits).map(|clause| clause.text);
         assert_eq!(text(&[]), None);
         assert_eq!(text(&[&print]).unwrap(), "region 4 is split locally: a print");
@@ -182,5 +199,14 @@ mod tests {
         assert_eq!(both.text, "2 are split locally, 1 of them a print");
         assert_eq!(both.subject, ClauseSubject::Region(print.id), "the largest");
         assert_eq!(text(&[&print, &print]).unwrap(), "2 are split locally: prints");
+        assert_eq!(
+            text(&[&white]).unwrap(),
+            "region 3 is split locally: its color is the light's as far as is known"
+        );
+        assert_eq!(
+            text(&[&rough, &rough]).unwrap(),
+            "2 are split locally: their colors lie off their planes"
+        );
+        assert_eq!(text(&[&white, &rough]).unwrap(), "2 are split locally", "different reasons");
     }
 }

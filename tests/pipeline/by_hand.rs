@@ -70,7 +70,7 @@ fn an_exact_skewed_t_gives_its_vectors_its_meeting_point_and_the_exact_split_of_
     assert_valid(&image, &analysis, "by hand");
     assert_eq!(analysis.warnings.iter().filter(|warning| warning.contains("skewed T")).count(), 0);
     let [region] = analysis.intrinsic.regions.as_slice() else { panic!("one region") };
-    assert!(region.model_fits && region.fit_rms_counts < 0.05, "{region:?}");
+    assert!(region.model_fits() && region.fit_rms_counts < 0.05, "{region:?}");
     assert!(angle_deg(region.body, BODY) < 0.05 && angle_deg(region.surface.unwrap(), LIGHT) < 0.1);
     let light = analysis.illuminant.unwrap();
     assert!(angle_deg(light.direction, LIGHT) < 0.1 && light.objects == 1);
@@ -177,7 +177,7 @@ fn several_hues_do_not_hold_and_no_area_is_the_whole_picture() {
     assert_valid(&image, &analysis, "hues");
     let said = analysis.warnings.join("; ");
     assert!(said.contains("no pixels were marked") && said.contains("skewed T"), "{said}");
-    assert!(analysis.intrinsic.regions.iter().all(|region| !region.model_fits));
+    assert!(analysis.intrinsic.regions.iter().all(|region| !region.model_fits()));
     assert_eq!(analysis.intrinsic.body, image.pixels, "never worse than the photograph");
 }
 

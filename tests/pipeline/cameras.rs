@@ -53,7 +53,7 @@ fn the_model_fits_plain_objects_in_compressed_files() {
     assert_eq!(image.coding.as_ref().unwrap().cause, CodingCause::Compression);
     let analysis = analyze(&image, &Params::default());
     let regions = &analysis.intrinsic.regions;
-    let fits = regions.iter().filter(|region| region.model_fits).count();
+    let fits = regions.iter().filter(|region| region.model_fits()).count();
     assert!(regions.len() == 6 && fits == 6, "{fits} of {}", regions.len());
     let off_deg = off_white_deg(&analysis);
     assert!(off_deg < 1.0, "the light is {off_deg} degrees off");

@@ -148,7 +148,7 @@ fn a_shift_of_the_picture_hardly_changes_the_result() {
 fn plain_balls_hold_and_their_planes_tell_of_the_light() {
     let image = Scene::grid_of_balls([240, 160], 3, 2, 8).render().image;
     let analysis = analyze(&image, &Params::default());
-    assert!(analysis.intrinsic.regions.iter().all(|region| region.model_fits && region.confidence > 0.3));
+    assert!(analysis.intrinsic.regions.iter().all(|region| region.model_fits() && region.confidence > 0.3));
     let light = analysis.planar.light;
     assert!(light.basis == LightBasis::Planes && light.support > 0.9, "{light:?}");
     assert!(light.interval_deg.is_some_and(|interval| interval > 0.0 && interval < 5.0), "{light:?}");

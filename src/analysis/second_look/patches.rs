@@ -29,7 +29,7 @@ pub(super) fn patches(masks: &Masks, working: &WorkingOutputs) -> Option<Mask> {
         let Some(patch) = search.component_at(start, inside) else { continue };
         let beside = Border::of(labels, patch, |pixel| !inside(pixel)).main_region();
         let region = beside.and_then(|(label, _)| RegionId::from_label(label));
-        if region.is_none_or(|region| regions[region.index()].model_fits) {
+        if region.is_none_or(|region| regions[region.index()].model_fits()) {
             for &pixel in patch {
                 kept[pixel] = true;
             }

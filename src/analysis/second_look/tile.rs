@@ -63,7 +63,7 @@ impl Tile {
         let finer_input = prepared.with_errors(finer_input, finer.coding.as_ref(), finer.shot);
         let mut records = StageRecords::<R>::default();
         let (regions, split) = regions_and_split(&finer_input, finer, &mut records);
-        let is_kept = |region: &RegionReflection| region.model_fits && region.separable;
+        let is_kept = |region: &RegionReflection| region.model_fits() && region.separable;
         let kept: Vec<bool> = split.intrinsic.regions.iter().map(is_kept).collect();
         if finer_input.stopped() || !(R::KEEPS || kept.contains(&true)) {
             return None;

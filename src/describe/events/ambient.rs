@@ -3,7 +3,7 @@
 use super::{Describe, LineObjects, nothing};
 use crate::describe::Names;
 use crate::describe::names::count;
-use crate::trace::Ambient;
+use crate::trace::{Ambient, Meeting};
 use serde_json::json;
 
 impl Describe for Ambient {
@@ -20,11 +20,12 @@ impl Describe for Ambient {
         let [miss, of_black] = meeting.miss_counts;
         format!(
             "{what} subtracted: {reason}; {} pass {} \u{b1} {} counts by {miss:.1} counts (rms) and black by {of_black:.1}, \
-             \u{3c7}\u{b2} {:.1} (significant above 16.3)",
+             \u{3c7}\u{b2} {:.1} (significant above {:.1})",
             count(meeting.lines as u64, "matte line"),
             counts(meeting.counts),
             counts(meeting.sd_counts),
-            meeting.chi_square
+            meeting.chi_square,
+            Meeting::SIGNIFICANT_CHI_SQUARE
         )
     }
 

@@ -52,7 +52,7 @@ pub struct Evidence {
     pub log_odds: Raster<f32>,
 }
 
-/// Per pixel of the window: what the observations are computed from.
+/// What the observations are computed from: the desaturation map of the window.
 struct Source<'a> {
     map: &'a DesaturationMap<'a>,
 }

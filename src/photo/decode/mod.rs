@@ -104,8 +104,7 @@ impl Budget {
         if !fits || width as f64 * height as f64 > self.max_megapixels * 1e6 {
             return Err(too_large);
         }
-        let believed = SMALL_PICTURE.saturating_add(PIXELS_PER_BYTE.saturating_mul(self.file_bytes as u64));
-        if width * height > believed {
+        if width * height > believable_pixels(self.file_bytes) {
             let megapixels = width as f64 * height as f64 / 1e6;
             let bytes = self.file_bytes;
             return Err(Fault::damaged(format!("it declares {megapixels:.1} megapixels in {bytes} bytes")));
@@ -118,6 +117,11 @@ impl Budget {
         const OVERHEAD: f64 = (64 << 20) as f64;
         (self.max_megapixels * 1e6).mul_add(BYTES_PER_PIXEL as f64, OVERHEAD) as usize
     }
+}
+
+/// Largest number of pixels that a file of `file_bytes` bytes is believed to hold.
+pub fn believable_pixels(file_bytes: usize) -> u64 {
+    SMALL_PICTURE.saturating_add(PIXELS_PER_BYTE.saturating_mul(file_bytes as u64))
 }
 
 /// Number of pixels that are believed to be in a byte of a file, besides those of a small picture: more than any photograph's

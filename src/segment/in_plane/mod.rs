@@ -25,6 +25,15 @@ use crate::reflection::DichromaticPlane;
 use regress::{CUBIC, QUADRATIC, QUARTIC, Sample, regress};
 use std::ops::Range;
 
+/// Least coordinate along the matte line of a pixel that is looked at, as a share of the length of the matte line.
+pub const LEAST_ALONG_SHARE: f64 = 0.3;
+/// Largest height above the plane of a pixel that is looked at, as a share of its offset from the matte line. A plane with an error loses
+/// the strongest pixels first; therefore the limit is an angle.
+pub const MOST_HEIGHT_PER_OFFSET: f32 = 0.5;
+/// Least and largest radius of the ring around a highlight, pixels: the radius of a circle with the area of the highlight.
+const RING_RANGE_PX: (f64, f64) = (3.0, 24.0);
+/// Factor of the radius of the ring where a cubic is fitted instead of a quartic.
+const WIDE_RING: usize = 2;
 /// Fewest pixels of a highlight.
 const MIN_BLOB_PX: usize = 12;
 /// Largest number of highlights of one region that are used; the largest highlights are.
@@ -78,15 +87,21 @@ impl InPlaneSearch<'_> {
         let blobs = self.highlights(pixels);
         let most = self.budget / blobs.len().max(1);
         for blob in blobs {
-            let radius_px = (blob.len() as f64 / std::f64::consts::PI).sqrt().clamp(3.0, 24.0) as usize;
-            let blob = Blob::new(&blob, 2 * radius_px, self.labels.width(), self.labels.height());
+            let radius_px = (blob.len() as f64 / std::f64::consts::PI)
+                .sqrt()
+                .clamp(RING_RANGE_PX.0, RING_RANGE_PX.1) as usize;
+            let blob = Blob::new(&blob, WIDE_RING * radius_px, self.labels.width(), self.labels.height());
             let sigma = self.input.sigma();
             let around = self.samples(&blob, radius_px);
             let outshone = around.iter().filter(|sample| sample.offset > STRONG * sigma);
             strong.extend(outshone.map(|sample| [sample.offset, sample.height]));
             let near = || regress::<QUARTIC, CUBIC>(&thinned(&around, most), sigma);
-            let wide =
-                || regress::<CUBIC, QUADRATIC>(&thinned(&self.samples(&blob, 2 * radius_px), most), sigma);
+            let wide = || {
+                regress::<CUBIC, QUADRATIC>(
+                    &thinned(&self.samples(&blob, WIDE_RING * radius_px), most),
+                    sigma,
+                )
+            };
             if let Some(slopes) = near().or_else(wide) {
                 along.add(slopes.along);
                 height.add(slopes.height);
@@ -162,7 +177,7 @@ impl InPlaneSearch<'_> {
         let own_label = hypothesis.get();
         let axes = self.plane.coordinates();
         let thickness = input.used.radius_counts() as f32;
-        let least_along = (0.3 * self.matte_length) as f32;
+        let least_along = (LEAST_ALONG_SHARE * self.matte_length) as f32;
         let near = dilate(&blob.mask, radius_px);
         let width = near.width();
         let mut samples = Vec::new();
@@ -174,8 +189,7 @@ impl InPlaneSearch<'_> {
                 continue;
             }
             let point = axes.of(input.pixels[pixel]);
-            // A plane with an error loses the strongest pixels first. Therefore pixels at a small angle to the plane count too.
-            let inside = point.height.abs() < (point.offset / 2.0).max(thickness);
+            let inside = point.height.abs() < (MOST_HEIGHT_PER_OFFSET * point.offset).max(thickness);
             let own = label == own_label || point.offset > thickness;
             if own && inside && point.along > least_along {
                 let [along, offset, height] = [point.along, point.offset, point.height].map(f64::from);

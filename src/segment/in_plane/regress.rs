@@ -7,6 +7,14 @@ use nalgebra::{SMatrix, SVector};
 pub const QUARTIC: usize = 16;
 pub const CUBIC: usize = 11;
 pub const QUADRATIC: usize = 7;
+/// Fewest samples per regressor.
+const LEAST_SAMPLES_PER_REGRESSOR: usize = 4;
+/// Largest number of fits, each without the pixels that the fit before left out.
+const MOST_FITS: usize = 5;
+/// Change of cotθ below which another fit changes nothing.
+const SETTLED_COTANGENT: f64 = 1e-4;
+/// Standard deviation of a normal distribution per median of the absolute values.
+const SIGMA_PER_MEDIAN: f64 = 1.4826;
 /// Pixels with a residual of more than this many times the residuals' scale are left out.
 const CUT: f64 = 3.5;
 /// Largest share of the noise in the variance of the offsets; beyond it the regression fails.
@@ -42,7 +50,7 @@ pub struct Slopes {
 /// `M` regressors counts as an error. `sigma`: noise of a band, counts. `None` with too few samples, or where the offsets are
 /// mostly noise.
 pub fn regress<const N: usize, const M: usize>(samples: &[Sample], sigma: f64) -> Option<Slopes> {
-    if samples.len() < 4 * N {
+    if samples.len() < LEAST_SAMPLES_PER_REGRESSOR * N {
         return None;
     }
     let samples = centered(samples);
@@ -53,7 +61,7 @@ pub fn regress<const N: usize, const M: usize>(samples: &[Sample], sigma: f64) -
     let mut taken = vec![true; samples.len()];
     let mut residuals = vec![[0.0; 2]; samples.len()];
     let mut answer: Option<Slopes> = None;
-    for _ in 0..5 {
+    for _ in 0..MOST_FITS {
         let fit = sums.solve::<N>(sigma)?;
         let check = sums.solve::<M>(sigma)?;
         for (residual, sample) in residuals.iter_mut().zip(&samples) {
@@ -63,9 +71,9 @@ pub fn regress<const N: usize, const M: usize>(samples: &[Sample], sigma: f64) -
         let checks = [check.along, check.height].map(|coefficients| coefficients[M - 1]);
         let scales: [f64; 2] = std::array::from_fn(|i| {
             let median = median(residuals.iter().map(|residual| residual[i]));
-            (1.4826 * median).max(sigma * (1.0 + slopes[i].powi(2)).sqrt())
+            (SIGMA_PER_MEDIAN * median).max(sigma * (1.0 + slopes[i].powi(2)).sqrt())
         });
-        let settled = answer.is_some_and(|before| (before.along.0 - slopes[0]).abs() < 1e-4);
+        let settled = answer.is_some_and(|before| (before.along.0 - slopes[0]).abs() < SETTLED_COTANGENT);
         let [along, height] = std::array::from_fn(|i| {
             let of_model = (slopes[i] - checks[i]).powi(2);
             let of_noise = (NOISE_ERROR * fit.noise / fit.information * slopes[i]).powi(2);

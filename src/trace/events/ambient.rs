@@ -1,6 +1,6 @@
 //! The estimate of the ambient light from the matte lines (section 7.5).
 
-use super::{EventData, Subject};
+use super::EventData;
 
 /// The estimate of the ambient light.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -27,8 +27,13 @@ pub struct Meeting {
     pub lines: usize,
     /// Root mean square distance of the lines from the point, and from black, counts.
     pub miss_counts: [f64; 2],
-    /// Squared distance of the point from black, in variances: 16.3 is significant.
+    /// Squared distance of the point from black, in variances; more than [`Self::SIGNIFICANT_CHI_SQUARE`] is significant.
     pub chi_square: f64,
+}
+
+impl Meeting {
+    /// 99.9 % quantile of χ² with three degrees of freedom: a larger `chi_square` is significant.
+    pub const SIGNIFICANT_CHI_SQUARE: f64 = 16.27;
 }
 
 /// Why ambient light was subtracted, or why not.
@@ -94,12 +99,4 @@ impl AmbientVerdict {
     }
 }
 
-impl EventData for Ambient {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
+impl EventData for Ambient {}

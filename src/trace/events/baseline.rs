@@ -148,17 +148,9 @@ impl EventData for PatchMade {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [Some(Subject::Hypothesis(self.hypothesis)), self.of.map(Subject::Hypothesis)]
     }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
 }
 
 impl EventData for ColorPeaksFound {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
-
     fn heap_bytes(&self) -> usize {
         size_of_val(self.peaks.as_slice())
     }

@@ -1,6 +1,6 @@
 //! The surface reflection at the borders between regions (refinement `border_mixtures`, beyond section 5.6).
 
-use super::{EventData, Subject};
+use super::EventData;
 use crate::raster::PixelIndex;
 
 /// The surface reflection of pixels near other regions was limited (refinement `border_mixtures`).
@@ -31,10 +31,6 @@ impl BordersLimited {
 }
 
 impl EventData for BordersLimited {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
-
     fn heap_bytes(&self) -> usize {
         size_of_val(self.pixels.as_slice())
     }

@@ -63,18 +63,10 @@ impl EventData for MarkedLineFitted {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [Some(Subject::Hypothesis(self.hypothesis)), None]
     }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
 }
 
 impl EventData for MarkedPixelsTaken {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [Some(Subject::Hypothesis(self.hypothesis)), None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
     }
 }

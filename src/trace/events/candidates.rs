@@ -119,18 +119,10 @@ impl EventData for CandidateTested {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [Some(Subject::Hypothesis(self.hypothesis)), None]
     }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
 }
 
 impl EventData for CandidateChosen {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [Some(Subject::Hypothesis(self.hypothesis)), None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
     }
 }

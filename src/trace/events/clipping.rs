@@ -51,19 +51,11 @@ impl EventData for HoleFilled {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [Some(Subject::Hypothesis(self.hypothesis)), None]
     }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
 }
 
 impl EventData for Dropped {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [Some(Subject::Hypothesis(self.hypothesis)), None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
     }
 }
 
@@ -71,17 +63,9 @@ impl EventData for ComponentSplit {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [Some(Subject::Hypothesis(self.hypothesis)), Some(Subject::Hypothesis(self.part))]
     }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
 }
 
 impl EventData for Renumbered {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
-
     fn heap_bytes(&self) -> usize {
         size_of_val(&*self.regions)
     }

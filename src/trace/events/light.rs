@@ -1,7 +1,7 @@
 //! The light that is used, and its evidence: the directions of highlight clusters (5.4.1), the planes of hypotheses, or the votes of
 //! small highlights (beyond 5.4).
 
-use super::{EventData, Subject};
+use super::EventData;
 use crate::raster::HypothesisId;
 
 /// The color of the light was estimated (section 5.4.1).
@@ -272,60 +272,24 @@ pub struct LampLimits {
 }
 
 impl EventData for IlluminantEstimated {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
-
     fn heap_bytes(&self) -> usize {
         size_of_val(self.contributions.as_slice())
     }
 }
 
 impl EventData for HighlightsAveraged {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
-
     fn heap_bytes(&self) -> usize {
         size_of_val(self.contributions.as_slice())
     }
 }
 
-impl EventData for IlluminantGiven {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
+impl EventData for IlluminantGiven {}
 
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
+impl EventData for VotesCast {}
 
-impl EventData for VotesCast {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
-
-impl EventData for LightChosen {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
+impl EventData for LightChosen {}
 
 impl EventData for LampsCompared {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
-
     fn heap_bytes(&self) -> usize {
         size_of_val(self.regions.as_slice())
     }

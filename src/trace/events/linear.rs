@@ -119,29 +119,13 @@ impl EventData for HypothesisChosen {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [Some(Subject::Hypothesis(self.hypothesis)), None]
     }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
 }
 
-impl EventData for HypothesisPassedOver {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
+impl EventData for HypothesisPassedOver {}
 
 impl EventData for SeedsPlaced {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [Some(Subject::Hypothesis(self.hypothesis)), None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
     }
 }
 
@@ -149,19 +133,11 @@ impl EventData for GrowthBegan {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [Some(Subject::Hypothesis(self.hypothesis)), None]
     }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
 }
 
 impl EventData for LineRefitted {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [Some(Subject::Hypothesis(self.hypothesis)), None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
     }
 }
 
@@ -169,18 +145,10 @@ impl EventData for Absorbed {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [Some(Subject::Hypothesis(self.hypothesis)), Some(Subject::Hypothesis(self.by))]
     }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
 }
 
 impl EventData for RegionsMerged {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [Some(Subject::Hypothesis(self.hypothesis)), Some(Subject::Hypothesis(self.into))]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
     }
 }

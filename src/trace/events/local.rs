@@ -218,42 +218,14 @@ impl RepairVerdict {
     }
 }
 
-impl EventData for LocalBegan {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
+impl EventData for LocalBegan {}
 
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
+impl EventData for PictureOddsFound {}
 
-impl EventData for PictureOddsFound {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
-
-impl EventData for PlausibilityTested {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
+impl EventData for PlausibilityTested {}
 
 impl EventData for RepairTried {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [Some(Subject::Blob(self.blob)), None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
     }
 }

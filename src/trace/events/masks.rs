@@ -1,6 +1,6 @@
 //! The masks of dark, clipped and bloomed pixels (section 4).
 
-use super::{EventData, Subject};
+use super::EventData;
 use crate::photo::MaskLimits;
 
 /// The masks of dark, clipped and bloomed pixels were made (section 4).
@@ -18,12 +18,4 @@ pub struct MasksMade {
     pub sigma: Option<f64>,
 }
 
-impl EventData for MasksMade {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
+impl EventData for MasksMade {}

@@ -54,13 +54,17 @@ pub enum Subject {
     Blob(u16),
 }
 
-/// Properties of every event.
+/// Properties of every event. An event writes those that differ from the default: it is about nothing, and holds nothing on the heap.
 pub(crate) trait EventData {
     /// The hypotheses, regions and blobs that the event is about.
-    fn subjects(&self) -> [Option<Subject>; 2];
+    fn subjects(&self) -> [Option<Subject>; 2] {
+        [None, None]
+    }
 
     /// Bytes that the structure holds on the heap, its own size not included.
-    fn heap_bytes(&self) -> usize;
+    fn heap_bytes(&self) -> usize {
+        0
+    }
 }
 
 impl<T: EventData> EventData for Box<T> {

@@ -1,6 +1,6 @@
 //! The beginnings of stages and passes.
 
-use super::{EventData, Subject};
+use super::EventData;
 use crate::trace::Stage;
 
 /// The steps that follow belong to a stage.
@@ -103,22 +103,6 @@ impl Pass {
     }
 }
 
-impl EventData for StageBegan {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
+impl EventData for StageBegan {}
 
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
-
-impl EventData for PassBegan {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
+impl EventData for PassBegan {}

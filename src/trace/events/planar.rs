@@ -42,18 +42,10 @@ impl EventData for MatteAreasUnited {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [Some(Subject::Hypothesis(self.hypothesis)), Some(Subject::Hypothesis(self.into))]
     }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
 }
 
 impl EventData for SliceMade {
     fn subjects(&self) -> [Option<Subject>; 2] {
         [Some(Subject::Hypothesis(self.hypothesis)), None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
     }
 }

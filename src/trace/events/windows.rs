@@ -1,6 +1,6 @@
 //! Windows and the areas that they merge into (section 5.2).
 
-use super::{EventData, Subject};
+use super::EventData;
 use crate::trace::{Class, Measured};
 
 /// A grid of windows was laid over the picture; the windows that follow belong to this grid.
@@ -68,32 +68,8 @@ pub struct MergeTried {
     pub union: Class,
 }
 
-impl EventData for WindowsLaid {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
+impl EventData for WindowsLaid {}
 
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
+impl EventData for WindowClassified {}
 
-impl EventData for WindowClassified {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
-
-impl EventData for MergeTried {
-    fn subjects(&self) -> [Option<Subject>; 2] {
-        [None, None]
-    }
-
-    fn heap_bytes(&self) -> usize {
-        0
-    }
-}
+impl EventData for MergeTried {}

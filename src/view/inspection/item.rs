@@ -92,7 +92,7 @@ fn of_region(shown: &ResultSnapshot, id: RegionId) -> Option<Inspection> {
     let is_judged = shown.params.refinements().region_holds;
     let tests =
         if is_judged { region_tests(region, shown.trace().map(|trace| &**trace)) } else { Vec::new() };
-    let (verdict, tone) = holds_verdict(is_judged, region.model_fits);
+    let (verdict, tone) = holds_verdict(is_judged, region.model_fits());
     let angle = region.angle_deg.map_or_else(
         || "no dichromatic plane".to_owned(),
         |angle| format!("{angle:.1}\u{b0} between body and surface vector"),
