@@ -226,7 +226,7 @@ fn presets_are_in_the_menu_and_parameters_travel_through_a_file() {
     std::fs::write(&path, "window_size = \n").unwrap();
     choose(&mut window, "Analyze", "Load parameters");
     crate::window::answer(&mut window, &path);
-    assert!(says(&window, "p.toml: "), "the dialog stays and says what is wrong");
+    assert!(says(&window, "p.toml:1: "), "the dialog stays and says what is wrong");
     assert_eq!(state(&window).document.params, preset.params());
 }
 
