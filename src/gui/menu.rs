@@ -177,7 +177,7 @@ fn read_as(ui: &mut Ui, cx: &mut PanelContext) {
         let mut counts = now.full_scale.unwrap_or(FULL_SCALE_COUNTS);
         // The value is typed and not dragged, because each value reads the file again.
         let field = egui::DragValue::new(&mut counts).range(1.0..=1e6).speed(0.0).update_while_editing(false);
-        let field = ui.add(field.suffix(" counts")).on_hover_text(tip);
+        let field = ui.add(field.max_decimals(3).suffix(" counts")).on_hover_text(tip);
         field.widget_info(|| {
             egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, "full scale")
         });
