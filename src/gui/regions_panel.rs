@@ -254,12 +254,10 @@ fn cells(
     let rms = RichText::new(format!("{:.2}", region.fit_rms_counts));
     row.col(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let is_bad = !region.model_fits() || region.fit_rms_counts > region.fit_limit_counts;
-            let rms = if is_bad { rms.color(palette.warning) } else { rms };
+            let is_beyond_limit = region.fit_rms_counts > region.fit_limit_counts;
+            let rms = if is_beyond_limit { rms.color(palette.warning) } else { rms };
             let label = ui.add(Label::new(rms).selectable(false));
-            if let Some(why) = crate::view::misfit_phrase(region) {
-                label.on_hover_text(format!("Does not hold: {why}. Its plane is not used."));
-            } else if is_bad {
+            if is_beyond_limit {
                 label.on_hover_text(format!(
                     "Beyond its limit of {:.1} counts (section 6).",
                     region.fit_limit_counts
@@ -267,19 +265,22 @@ fn cells(
             }
         });
     });
-    cell(row, |ui| {
-        if let Some(first) = region.warnings.first() {
-            let more = region.warnings.len() - 1;
-            let text = if more > 0 { format!("{first} (+{more})") } else { first.clone() };
-            let label = Label::new(RichText::new(text).size(SMALL_PT).color(palette.secondary))
-                .truncate()
-                .show_tooltip_when_elided(false);
-            ui.add(label.selectable(false)).on_hover_text(region.warnings.join(
-                "
-",
-            ));
-        }
-    });
+    cell(row, |ui| notes(ui, region, palette));
+}
+
+/// Shows the first of a region's warnings, in the color of warnings where the model does not fit; the tooltip has all.
+fn notes(ui: &mut Ui, region: &RegionReflection, palette: &ThemeColors) {
+    let Some(first) = region.warnings.first() else { return };
+    let misfit = crate::view::misfit_phrase(region);
+    let more = region.warnings.len() - 1;
+    let text = if more > 0 { format!("{first} (+{more})") } else { first.clone() };
+    let color = if misfit.is_some() { palette.warning } else { palette.secondary };
+    let label = Label::new(RichText::new(text).size(SMALL_PT).color(color))
+        .truncate()
+        .show_tooltip_when_elided(false);
+    let verdict = misfit.map(|why| format!("Does not hold: {why}. Its plane is not used."));
+    let lines: Vec<String> = verdict.into_iter().chain(region.warnings.iter().cloned()).collect();
+    ui.add(label.selectable(false)).on_hover_text(lines.join("\n"));
 }
 
 /// Tooltip about the shades on which a region's highlights lie, one line per highlight line (section 7.4).

@@ -93,7 +93,8 @@ pub fn contradicts(evidence: &[Evidence], light: &Vec3) -> bool {
 }
 
 /// Searches the regions' evidence for a second lamp beside the light `first`, unit, which is known within `first_interval_deg`: a lamp that is
-/// nearer is no other one. `interval_widening`: factor of the intervals of both lamps ([`AnalysisInput::interval_widening`]). Returns the comparison, and the
+/// nearer is no other one. `interval_widening`: factor of the intervals of both lamps
+/// ([`AnalysisInput::interval_widening`](super::AnalysisInput::interval_widening)). Returns the comparison, and the
 /// second lamp where there is one; `None` with fewer than two regions that contradict the first light. `matte_labels`: the matte region of
 /// each pixel, of `count` hypotheses.
 pub fn second_lamp(
