@@ -185,3 +185,30 @@ pub(super) fn masks_made(masks: &Masks, limits: MaskLimits, pixels: usize, sigma
         sigma,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::params::Refine;
+    use crate::raster::Raster;
+
+    #[test]
+    fn masks_depend_on_coding_error_only_where_their_threshold_depends_on_the_estimated_noise() {
+        let image = Arc::new(LinearImage::new(Raster::filled(32, 32, [90.0; 3]), Some(255.0)));
+        let subject = Subject { image, area: None };
+        let depends = |min_intensity, camera_noise| {
+            let keys = [false, true].map(|coding_error| {
+                let refine = Refine { coding_error, ..Refine::default() };
+                Preparation::new(
+                    &subject,
+                    &Params { camera_noise, min_intensity, refine, ..Params::default() },
+                )
+                .key()
+            });
+            keys[0] != keys[1]
+        };
+        let given = Setting::Value(20.0);
+        assert!(depends(Setting::Auto, Setting::Auto));
+        assert!(!depends(given, Setting::Auto) && !depends(Setting::Auto, Setting::Value(2.5)));
+    }
+}

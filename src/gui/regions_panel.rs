@@ -271,16 +271,13 @@ fn cells(
 /// Shows the first of a region's warnings, in the color of warnings where the model does not fit; the tooltip has all.
 fn notes(ui: &mut Ui, region: &RegionReflection, palette: &ThemeColors) {
     let Some(first) = region.warnings.first() else { return };
-    let misfit = crate::view::misfit_phrase(region);
     let more = region.warnings.len() - 1;
     let text = if more > 0 { format!("{first} (+{more})") } else { first.clone() };
-    let color = if misfit.is_some() { palette.warning } else { palette.secondary };
+    let color = if region.model_fits() { palette.secondary } else { palette.warning };
     let label = Label::new(RichText::new(text).size(SMALL_PT).color(color))
         .truncate()
         .show_tooltip_when_elided(false);
-    let verdict = misfit.map(|why| format!("Does not hold: {why}. Its plane is not used."));
-    let lines: Vec<String> = verdict.into_iter().chain(region.warnings.iter().cloned()).collect();
-    ui.add(label.selectable(false)).on_hover_text(lines.join("\n"));
+    ui.add(label.selectable(false)).on_hover_text(region.warnings.join("\n"));
 }
 
 /// Tooltip about the shades on which a region's highlights lie, one line per highlight line (section 7.4).

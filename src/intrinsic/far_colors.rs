@@ -34,9 +34,7 @@ impl FarColors {
 
     /// Whether a color, counts above the ambient light, is far.
     fn contains(&self, color: [f32; 3]) -> bool {
-        let amounts = self.transform.split(color);
-        let beyond_lines = -amounts.body.min(amounts.surface) * self.transform.sine();
-        amounts.noise.abs().max(beyond_lines) > self.limit_counts
+        self.transform.misfit_counts(color) > self.limit_counts
     }
 }
 

@@ -160,8 +160,7 @@ fn restored(
 fn believed_split(input: &AnalysisInput, plan: &RegionPlan, pixel: usize) -> Option<SplitPixel> {
     let is_asked = input.refine.restore_prior && !input.masks.clipped(pixel) && input.mixing_reach_px() == 1;
     let transform = plan.transform().filter(|_| is_asked)?;
-    let amounts = transform.split(input.pixels[pixel]);
-    let beyond_lines = -amounts.body.min(amounts.surface) * transform.sine();
+    let color = input.pixels[pixel];
     let limit_counts = BELIEVED_SIGMAS * plan.fit.sigma_counts as f32;
-    (amounts.noise.abs().max(beyond_lines) <= limit_counts).then(|| plan.splitter.split(input.pixels[pixel]))
+    (transform.misfit_counts(color) <= limit_counts).then(|| plan.splitter.split(color))
 }

@@ -164,7 +164,7 @@ pub fn decode(bytes: &[u8], name_hint: &str, options: &ReadOptions) -> Result<Ph
     if let Some(counts) = clipping_value {
         let value = f64::from(counts) / full_scale;
         warnings.push(format!(
-            "many values of the file are equal to the largest one, {value:.4}, and are taken for clipped: --clip-threshold says otherwise"
+            "many values of the file are equal to the largest one, {value:.4}, and are taken for clipped unless --clip-threshold says otherwise"
         ));
     }
     let coding =

@@ -57,6 +57,14 @@ impl ReflectionTransform {
         }
     }
 
+    /// How far a color is from those that the transform explains, counts: the larger of the distance from the plane and of the distance beyond
+    /// the matte or the highlight line, where an amount of reflection would be negative.
+    #[inline]
+    pub fn misfit_counts(&self, color: [f32; 3]) -> f32 {
+        let amounts = self.split(color);
+        amounts.noise.abs().max(-amounts.body.min(amounts.surface) * self.sine)
+    }
+
     /// The color of components (T⁻¹ applied).
     #[inline]
     pub fn join(&self, components: Components) -> [f32; 3] {
@@ -118,6 +126,20 @@ mod tests {
             prop_assert!((found.surface - made.surface).abs() < 5e-3);
             prop_assert!((found.noise - made.noise).abs() < 5e-3);
         }
+    }
+
+    #[test]
+    fn the_misfit_is_the_distance_from_the_plane_or_beyond_a_line() {
+        let (b, s) = (Vec3::new(1.0, 0.0, 0.0), Vec3::new(0.6, 0.8, 0.0));
+        let transform = ReflectionTransform::new(&b, &s).unwrap();
+        let misfit = |body, surface, noise| {
+            transform.misfit_counts(transform.join(Components { body, surface, noise }))
+        };
+        let is = |found: f32, expected: f32| (found - expected).abs() < 1e-4;
+        assert!(is(misfit(50.0, 20.0, 0.0), 0.0), "between the lines");
+        assert!(is(misfit(50.0, 20.0, -3.0), 3.0), "off the plane");
+        assert!(is(misfit(50.0, -5.0, 1.0), 4.0), "5 counts of negative surface reflection, at the sine .8");
+        assert!(is(misfit(-10.0, 20.0, 1.0), 8.0), "10 counts of negative body reflection");
     }
 
     #[test]

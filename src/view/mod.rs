@@ -101,4 +101,4 @@ pub use solid::{Mesh, Solid};
 pub use statistics::{Band, Bounds, STATISTICS_BINS, Statistics, statistics, statistics_of};
 pub use table::regions_text;
 pub use vector::Point;
-pub use verdict::{Clause, ClauseSubject, WIDE_INTERVAL_DEG, misfit_phrase, verdict};
+pub use verdict::{Clause, ClauseSubject, WIDE_INTERVAL_DEG, verdict};

@@ -70,7 +70,7 @@ fn fitting_text(regions: usize, misfits: usize) -> String {
 }
 
 /// Why a region does not fit, as a phrase; none of a region that fits.
-pub fn misfit_phrase(region: &RegionReflection) -> Option<String> {
+fn misfit_phrase(region: &RegionReflection) -> Option<String> {
     let phrase = match region.verdict {
         RegionVerdict::ColorOfLight => "its color is the light's as far as is known",
         RegionVerdict::Texture => "a print",

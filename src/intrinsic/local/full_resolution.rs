@@ -3,9 +3,9 @@
 //! What is a highlight is decided in the working picture, whose colors are less noisy. There the amount of surface
 //! reflection around each working pixel is a linear function p·a + q of a, the mean of J (rule `guided_amount`). The
 //! functions, interpolated between the working pixels, give the amounts of the photograph's pixels, so that the edges
-//! of the photograph's highlights are where the photograph has them. The change of chromaticity (rule `chromaticity_prior`) is
-//! interpolated likewise, as a share of the length of body reflection. A clipped pixel takes the body reflection with
-//! which the working picture was filled, interpolated likewise.
+//! of the photograph's highlights are where the photograph has them. Interpolated likewise are
+//! the change of chromaticity (rule `chromaticity_prior`), as a share of the length of body reflection, and the body reflection with
+//! which the working picture was filled, which a clipped pixel takes.
 
 use super::chromaticity::changed;
 use super::lamps::Lamp;

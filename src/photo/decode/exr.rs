@@ -145,3 +145,21 @@ channel_reader!(rgb, 3, ["R", "G", "B"], (r, g, b) => [r, g, b], (f32, f32, f32)
 channel_reader!(rgba, 4, ["R", "G", "B", "A"], (r, g, b, a) => [r, g, b, a], (f32, f32, f32, f32));
 channel_reader!(luminance, 1, ["Y"], (y,) => [y], (f32,));
 channel_reader!(luminance_alpha, 2, ["Y", "A"], (y, a) => [y, a], (f32, f32));
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn chromaticities_that_fractions_of_tiff_cannot_hold_are_left_out() {
+        let of_blue = |blue| {
+            let [red, green, white] = [Vec2(0.64, 0.33), Vec2(0.3, 0.6), Vec2(0.3127, 0.329)];
+            TiffColor::of_chromaticities(Some(Chromaticities { red, green, blue, white }))
+        };
+        let ordinary = of_blue(Vec2(0.15, 0.06));
+        assert_eq!((ordinary.white_point[0], ordinary.primaries[5]), ((31_270, 100_000), (6_000, 100_000)));
+        for imaginary in [Vec2(0.0001, -0.077), Vec2(f32::NAN, 0.06)] {
+            assert_eq!(of_blue(imaginary), TiffColor::default());
+        }
+    }
+}

@@ -126,3 +126,30 @@ impl EventData for CandidateChosen {
         [Some(Subject::Hypothesis(self.hypothesis)), None]
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_test_fails_a_candidate_only_where_the_test_decides() {
+        let passed = CandidateVerdict {
+            lines_meet: true,
+            upper_half: true,
+            not_parallel: true,
+            by_gershon: false,
+            is_marked: false,
+            positive: true,
+            beyond: true,
+        };
+        assert!(passed.accepted() && !passed.fails_upper_half() && !passed.fails_not_parallel());
+        let low = CandidateVerdict { upper_half: false, ..passed };
+        let parallel = CandidateVerdict { not_parallel: false, ..passed };
+        for by_gershon in [false, true] {
+            let [low, parallel] = [low, parallel].map(|verdict| CandidateVerdict { by_gershon, ..verdict });
+            assert_eq!((low.fails_upper_half(), parallel.fails_not_parallel()), (!by_gershon, by_gershon));
+            assert_eq!((low.accepted(), parallel.accepted()), (by_gershon, !by_gershon));
+        }
+        assert!(!CandidateVerdict { is_marked: true, ..low }.fails_upper_half());
+    }
+}
