@@ -38,6 +38,12 @@ pub fn dot(a: [f32; 3], b: [f32; 3]) -> f32 {
     a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }
 
+/// Euclidean length of a color.
+#[inline]
+pub fn length(color: [f32; 3]) -> f32 {
+    dot(color, color).sqrt()
+}
+
 /// Angle between two directions regardless of their signs, degrees in 0…90.
 pub fn axis_angle_deg(a: &Vec3, b: &Vec3) -> f64 {
     a.cross(b).norm().atan2(a.dot(b).abs()).to_degrees()

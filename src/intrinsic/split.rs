@@ -8,7 +8,7 @@ use super::explained_mask::explained_mask;
 use super::far_colors::remove_far_colors;
 use super::finish::Finish;
 use super::images::Images;
-use super::local::{Lamps, LocalInput, LocalSplit, Regions, split_locally};
+use super::local::{HueRestored, Lamps, LocalInput, LocalSplit, Regions, split_locally};
 use super::plane_evidence::reject_regions_without_evidence;
 use super::region::RegionReports;
 use super::region_plan::{FittedPlace, RegionPlan, RegionPlans};
@@ -126,6 +126,7 @@ fn split_from<R: Recorder>(
     let matte: Vec<Line> = found.plans.iter().map(|plan| plan.hypothesis.matte).collect();
     let local_regions = Regions { labels: &regions.labels, members, matte: &matte };
     let lamps = Lamps::new(&regions.light, regions.second_lamp_mask.as_ref());
+    let hue_restored = HueRestored::new(input, origin, lamps.as_ref());
     let observations =
         reject_regions_without_evidence(input, lamps.as_ref(), &local_regions, &images, &mut found.plans);
     let plans = &found.plans;
@@ -141,10 +142,12 @@ fn split_from<R: Recorder>(
     let explained_mask = &found.explained_mask;
     let local_input = LocalInput {
         input,
+        restored: hue_restored.as_ref(),
         light: regions.light,
         lamps: lamps.as_ref(),
         explained_mask,
-        observations,
+        // What was observed without the restored bands says nothing of their pixels.
+        observations: observations.filter(|_| hue_restored.is_none()),
         regions: local_regions,
     };
     found.local = split_locally(&local_input, origin, &mut images, recorder);

@@ -168,6 +168,11 @@ switches! {
         meaning: "Clipped pixels are restored from the bands that can be believed and from their surroundings (5.5, 6).",
         worth: "Restored pixels +13.2 and +4.3 dB, body +8.7 and +4.5 dB.",
     }
+    clipped_bands ClippedBands {
+        first_stage: Clipping,
+        meaning: "A region takes a clipped pixel only where its body and surface reflection can have the bands that do not clip (5.5).",
+        worth: "A scene of plain objects at 1.25 times full exposure: 24.6 → 30.6 dB (doing nothing: 30.1), as a ball no longer goes to the object beside it; 37 scenes as they are change by at most .1 dB.",
+    }
     split_components SplitComponents {
         first_stage: Clipping,
         meaning: "Parts of a region that lie apart become regions of their own (5.5).",
@@ -244,6 +249,11 @@ switches! {
         first_stage: Split,
         meaning: "The surface reflection of the local split follows the edges of the picture, so that the split makes no edges of its own (6).",
         worth: "Six printed scenes: the whole picture 34.5 → 35.4 dB (doing nothing: 21.5).",
+    }
+    hue_restoration HueRestoration {
+        first_stage: Split,
+        meaning: "Where one band alone is clipped and no region explains the pixel, the band comes from the other two and the hue around (6).",
+        worth: "48 overexposed pictures: inside highlights 19.5 → 20.3 dB (doing nothing: 14.0), fruit 25.0 → 29.2, a print 17.6 → 22.4; the highlight of an orange whose red clips is found; 37 scenes as they are +.05 dB on average.",
     }
     chromaticity_prior ChromaticityPrior {
         first_stage: Split,

@@ -141,6 +141,20 @@ impl Masks {
         Self { flags: roi.crop(&self.flags) }
     }
 
+    /// The same marks with `pixels` marked as neither clipped nor bloomed, because their clipped bands were restored.
+    #[must_use]
+    pub fn with_restored(&self, pixels: impl Iterator<Item = usize>) -> Self {
+        let mut flags = self.flags.clone();
+        pixels.for_each(|pixel| flags[pixel] &= !(CLIPPED | BLOOMED));
+        Self { flags }
+    }
+
+    /// Calls `visit` with the 4-neighbors of a pixel, in the order up, left, right, down.
+    #[inline]
+    pub fn for_each_neighbor(&self, pixel: usize, visit: impl FnMut(usize)) {
+        self.flags.for_each_neighbor(pixel, visit);
+    }
+
     /// Number of columns and rows.
     pub fn shape(&self) -> (usize, usize) {
         (self.flags.width(), self.flags.height())

@@ -50,6 +50,12 @@ impl WhiteningGain {
         (color[0] * self.gain[0] + color[1] * self.gain[1] + color[2] * self.gain[2]) / 3.0
     }
 
+    /// The chromatic part of J of a color in counts: J without its mean, counts.
+    pub fn chromatic_part(&self, color: [f32; 3]) -> [f32; 3] {
+        let mean = self.mean(color);
+        std::array::from_fn(|band| color[band] * self.gain[band] - mean)
+    }
+
     /// A color, counts, under white light.
     #[inline]
     pub fn whitened(&self, color: [f32; 3]) -> WhitenedColor {
@@ -77,6 +83,15 @@ pub struct Desaturation {
     pub noise_limit: f32,
     /// ms up to this value is noise or variation of the hue in the surroundings.
     pub variation_limit: f32,
+}
+
+impl WhitenedColor {
+    /// The unit vector of the chromatic part of J of this hue.
+    pub fn hue(&self) -> [f32; 3] {
+        let (v, u) = (self.hue_turns * std::f32::consts::TAU).sin_cos();
+        let (across, along) = (v / 2f32.sqrt(), u / 6f32.sqrt());
+        [2.0 * along, across - along, -across - along]
+    }
 }
 
 impl Desaturation {
@@ -130,6 +145,16 @@ mod tests {
         let color = WhitenedColor { mean: 0.0, chroma: body / ratios[0], hue_turns: 0.0, largest: 0.0 };
         let found = Desaturation::new(color, ratios, 1.0);
         [found.noise_limit, found.variation_limit]
+    }
+
+    #[test]
+    fn the_hue_is_the_direction_of_the_chromatic_part() {
+        let gain = WhiteningGain::new(&Vec3::new(0.7, 0.5, 0.5)).unwrap();
+        for color in [[200.0, 90.0, 30.0], [20.0, 90.0, 130.0], [60.0, 10.0, 80.0]] {
+            let (whitened, part) = (gain.whitened(color), gain.chromatic_part(color));
+            let along = whitened.hue().map(|band| band * whitened.chroma);
+            assert!(part.iter().zip(along).all(|(a, b)| (a - b).abs() < 1e-3), "{part:?} {along:?}");
+        }
     }
 
     #[test]

@@ -4,12 +4,19 @@
 //! than to the matte line) a region grows into unassigned neighbors that are brighter than the meeting point of both lines.
 //! Then holes are filled: components of distorted pixels on whose assigned border one region has the largest part, and small components of unassigned
 //! pixels that lie wholly inside one region. The paper only says that such a method “should be able to” help: the reading `fill_holes`.
+//!
+//! The position alone gives the clipped body of one object to the highlight of the object beside it: a bright green ball
+//! turned black and orange. The bands that do not clip are known, and the clipped ones are at least the clip threshold (refinement
+//! `clipped_bands`, `reflection/clipped_color`): a region takes a clipped pixel only where the color is nearer than an eighth of its length to
+//! the colors that body and surface reflection of the region can have. On eight rendered scenes no clipped pixel of a plain object
+//! is farther than a tenth of that limit from the colors of its own object.
 
 use super::input::AnalysisInput;
-use super::planar_hypothesis::PlanarRegions;
+use super::planar_hypothesis::{PlanarHypothesis, PlanarRegions};
 use super::recorded_labels::RecordedLabels;
-use crate::color::dot;
+use crate::color::{Vec3, dot};
 use crate::raster::{Border, ComponentSearch, Connectivity, HypothesisId, LabelMap, PixelIndex, UNASSIGNED};
+use crate::reflection::ClippedColorTest;
 use crate::trace::{GrowthBegan, HoleFilled, Pass, Recorder};
 use rayon::prelude::*;
 
@@ -36,6 +43,7 @@ pub fn clipping_regions<R: Recorder>(
             members.region(HypothesisId::from_index(index)).iter().filter(is_highlight).collect()
         })
         .collect();
+    let can_be = CanBe::new(input, planar);
     let ids = HypothesisId::all(planar.hypotheses.len());
     for ((id, hypothesis), mut front) in ids.zip(&planar.hypotheses).zip(fronts) {
         if input.stopped() {
@@ -56,31 +64,73 @@ pub fn clipping_regions<R: Recorder>(
                 holder.is_none()
                     && input.masks.claimable_by_brightness(pixel)
                     && dot(color, color) > meeting_point_norm2
+                    && can_be.of(id, pixel)
             },
         );
     }
-    if !input.readings.fill_holes {
-        return recorded_labels.labels;
+    if input.readings.fill_holes {
+        fill_holes(input, &can_be, &mut recorded_labels);
     }
+    recorded_labels.labels
+}
+
+/// Fills the components of distorted pixels, and then the small components of unassigned pixels.
+fn fill_holes<R: Recorder>(input: &AnalysisInput, can_be: &CanBe, recorded_labels: &mut RecordedLabels<R>) {
+    let fits = |hole: &Hole| can_be.most_of(hole.hypothesis, hole.component);
     recorded_labels.begin(Pass::ClippedHoles);
     let distorted = |pixel: usize| input.masks.distorted(pixel) && !input.masks.dark(pixel);
-    fill(&mut recorded_labels, distorted, |hole| hole.border_share >= MIN_BORDER_SHARE);
+    fill(recorded_labels, distorted, |hole| hole.border_share >= MIN_BORDER_SHARE && fits(hole));
     if input.stopped() {
-        return recorded_labels.labels;
+        return;
     }
     recorded_labels.begin(Pass::SmallHoles);
     let largest_px = input.used.min_area as usize;
     let lit = |pixel: usize| !input.masks.dark(pixel);
-    fill(&mut recorded_labels, lit, |hole| {
-        hole.closed && hole.border_share >= 1.0 && hole.pixels <= largest_px
+    fill(recorded_labels, lit, |hole| {
+        hole.closed && hole.border_share >= 1.0 && hole.component.len() <= largest_px && fits(hole)
     });
-    recorded_labels.labels
+}
+
+/// Which clipped pixels can belong to which region, by the bands that do not clip (refinement `clipped_bands`).
+struct CanBe<'a> {
+    input: &'a AnalysisInput<'a>,
+    /// The test of each hypothesis; none where its surface reflection has no direction, and without the refinement.
+    tests: Vec<Option<ClippedColorTest>>,
+}
+
+impl<'a> CanBe<'a> {
+    fn new(input: &'a AnalysisInput<'a>, planar: &PlanarRegions) -> Self {
+        let light = planar.light.direction.map(Vec3::from);
+        let test = |hypothesis: &PlanarHypothesis| {
+            let surface = hypothesis.plane.map(|plane| plane.surface).or(light)?;
+            let PlanarHypothesis { matte, .. } = hypothesis;
+            let threshold = input.used.clip_threshold as f32;
+            input
+                .refine
+                .clipped_bands
+                .then(|| ClippedColorTest::new(&matte.foot(), &matte.direction, &surface, threshold))
+        };
+        Self { input, tests: planar.hypotheses.iter().map(test).collect() }
+    }
+
+    /// Whether the pixel does not clip, or its bands that do not clip can be those of the region.
+    fn of(&self, id: HypothesisId, pixel: usize) -> bool {
+        let test = self.tests[id.index()].as_ref();
+        test.is_none_or(|test| test.refusal(self.input.pixels[pixel]).is_none())
+    }
+
+    /// Whether at least half of the pixels can be of the region.
+    fn most_of(&self, id: HypothesisId, pixels: &[usize]) -> bool {
+        2 * pixels.iter().filter(|&&pixel| self.of(id, pixel)).count() >= pixels.len()
+    }
 }
 
 /// A component of unassigned pixels, compared with the region that most of its border belongs to.
-struct Hole {
-    /// Number of pixels of the component.
-    pixels: usize,
+struct Hole<'a> {
+    /// The region.
+    hypothesis: HypothesisId,
+    /// The pixels of the component.
+    component: &'a [usize],
     /// Share of the region in the assigned part of the border, 0…1.
     border_share: f64,
     /// Whether regions surround the component on all sides.
@@ -103,7 +153,7 @@ fn fill<R: Recorder>(
         let border = Border::of(labels, component, |pixel| !inside(pixel));
         let Some((label, border_share)) = border.main_region() else { continue };
         let Some(hypothesis) = HypothesisId::from_label(label) else { continue };
-        if !accepts(&Hole { pixels: component.len(), border_share, closed: border.is_closed() }) {
+        if !accepts(&Hole { hypothesis, component, border_share, closed: border.is_closed() }) {
             continue;
         }
         if R::KEEPS {
@@ -129,12 +179,14 @@ mod tests {
         Vec3::new(0.9, 0.3, 0.2).normalize()
     }
 
-    /// A picture drawn with letters: m for matte, h for highlight, w for white and clipped, d for dim and of another color, a point for black.
+    /// A picture drawn with letters: m for matte, h for highlight, w for white and clipped, g for another color whose green clips, d for dim
+    /// and of another color, a point for black.
     fn drawing(rows: &[&str]) -> Drawing {
         Drawing::new(rows, |c| match c {
             'm' => body() * 120.0,
             'h' => body() * 130.0 + Vec3::repeat(60.0),
             'w' => Vec3::repeat(255.0),
+            'g' => Vec3::new(30.0, 255.0, 60.0),
             _ => Vec3::new(20.0, 60.0, 40.0),
         })
     }
@@ -167,6 +219,13 @@ mod tests {
         let picture = drawing(&["mmmmmm", "mhwwdd", "mmwwdm", "mmmmd."]);
         let before = ["111111", "11....", "11...1", "1111.."];
         fill_in(&picture, &before, true, &["111111", "1111..", "1111.1", "1111.."]);
+    }
+
+    #[test]
+    fn a_clipped_pixel_whose_other_bands_the_region_cannot_have_is_left() {
+        let picture = drawing(&["mmmmmm", "mhwggm", "mmmmmm", "mmggmm", "mmmmmm"]);
+        let before = ["111111", "11...1", "111111", "11..11", "111111"];
+        fill_in(&picture, &before, true, &["111111", "111..1", "111111", "11..11", "111111"]);
     }
 
     #[test]

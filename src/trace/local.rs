@@ -4,7 +4,7 @@
 //! again. Clipped blobs are recorded one by one, up to the largest number.
 
 use super::HighlightTerms;
-use crate::raster::{Mask, Raster, Roi};
+use crate::raster::{Mask, PixelIndex, Raster, Roi};
 
 /// The figures that decided about one pixel.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -135,6 +135,17 @@ pub enum LocalRecord {
     Outside(Mask),
 }
 
+/// A band that was restored by the hue around, because it alone is clipped.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RestoredBand {
+    /// The pixel.
+    pub pixel: PixelIndex,
+    /// The band, 0 to 2.
+    pub band: u8,
+    /// The value, counts above the ambient light.
+    pub value: f32,
+}
+
 /// The figures of the pixels of a rectangle.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LocalPoints {
@@ -142,6 +153,8 @@ pub struct LocalPoints {
     pub roi: Roi,
     /// The figures of each pixel.
     pub of: Raster<LocalPoint>,
+    /// The bands that were restored by hue, by pixel.
+    pub restored: Vec<RestoredBand>,
 }
 
 impl LocalRecord {
@@ -155,13 +168,20 @@ impl LocalRecord {
 
     /// The figures of a pixel; none for a pixel that was not judged.
     pub fn point(&self, pixel: usize) -> Option<&LocalPoint> {
-        let Self::Points(LocalPoints { roi, of }) = self else { return None };
+        let Self::Points(LocalPoints { roi, of, .. }) = self else { return None };
         of.as_slice().get(roi.index(pixel)?)
+    }
+
+    /// The band of a pixel that was restored by hue; none where none was.
+    pub fn restored(&self, pixel: usize) -> Option<&RestoredBand> {
+        let Self::Points(LocalPoints { restored, .. }) = self else { return None };
+        let found = restored.binary_search_by_key(&PixelIndex::from_index(pixel), |band| band.pixel);
+        found.ok().map(|index| &restored[index])
     }
 
     /// The pixels of the blob with a number, ascending.
     pub fn blob(&self, blob: u16) -> Vec<u32> {
-        let Self::Points(LocalPoints { roi, of }) = self else { return Vec::new() };
+        let Self::Points(LocalPoints { roi, of, .. }) = self else { return Vec::new() };
         let own = of.as_slice().iter().enumerate().filter(|(_, point)| blob != 0 && point.blob() == blob);
         own.map(|(index, _)| roi.pixel(index) as u32).collect()
     }
@@ -169,7 +189,9 @@ impl LocalRecord {
     /// Memory of the record, bytes.
     pub fn bytes(&self) -> usize {
         match self {
-            Self::Points(points) => points.of.len() * size_of::<LocalPoint>(),
+            Self::Points(points) => {
+                points.of.len() * size_of::<LocalPoint>() + points.restored.len() * size_of::<RestoredBand>()
+            }
             Self::Outside(mask) => mask.len(),
         }
     }
@@ -212,7 +234,7 @@ mod tests {
         let mut of = Raster::filled(2, 2, LocalPoint::new(true, &LocalFigures::default()));
         of[1].set_blob(7);
         of[2].set_blob(7);
-        let record = LocalRecord::Points(LocalPoints { roi, of });
+        let record = LocalRecord::Points(LocalPoints { roi, of, restored: Vec::new() });
         assert_eq!(record.blob(7), [6, 9]);
         assert!(record.blob(0).is_empty());
         assert_eq!(record.point(6).map(LocalPoint::blob), Some(7));

@@ -33,7 +33,7 @@ pub use history::{
 pub use lineage::{
     Ancestor, Birth, HypothesisStory, Joined, JoinedHow, lineage, region_of, regions_of, story,
 };
-pub use local::{LocalFigures, LocalPoint, LocalPoints, LocalRecord};
+pub use local::{LocalFigures, LocalPoint, LocalPoints, LocalRecord, RestoredBand};
 pub use measured::Measured;
 pub use recorder::{NoopRecorder, Recorder, TraceRecorder};
 pub use replay::Replay;

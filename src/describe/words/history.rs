@@ -296,6 +296,9 @@ fn outside(barrier: Barrier) -> String {
                 format!("body reflection {value:.1} counts, past the end of the matte line at {limit:.1}")
             }
         },
+        Barrier::OtherBands { distance, limit } => format!(
+            "its bands that do not clip are {distance:.1} counts from any body and surface reflection of it, at most {limit:.1}"
+        ),
         Barrier::Darker { brightness, start } => {
             format!("{brightness:.1} counts bright, its highlight starts at {start:.1}")
         }

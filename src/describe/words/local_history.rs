@@ -1,7 +1,7 @@
 //! A pixel's surroundings in words, where no region explains it.
 
 use super::super::events::failed_limits;
-use crate::trace::{HighlightTerms, LocalFate, LocalStory, Ramp, Unfit};
+use crate::trace::{HighlightTerms, LocalFate, LocalStory, Ramp, RestoredBand, Unfit};
 
 /// Smallest change of chromaticity that is told, degrees.
 const LEAST_TURN_DEG: f32 = 0.05;
@@ -9,7 +9,12 @@ const LEAST_TURN_DEG: f32 = 0.05;
 /// The sentence of the figures by which a pixel was judged.
 pub(super) fn surroundings(story: &LocalStory) -> String {
     let LocalStory { mean, chroma, excess, noise, variation, odds, weight, limits, surface, .. } = story;
-    let seen = format!("a {mean:.1} and c {chroma:.1} counts (mean and chromatic part under the light)");
+    let restored = story.restored.map_or_else(String::new, |RestoredBand { band, value, .. }| {
+        let name = ["red", "green", "blue"][usize::from(band)];
+        format!("its {name} alone is clipped, and is {value:.1} counts by the other two bands and the hue around; ")
+    });
+    let seen =
+        format!("{restored}a {mean:.1} and c {chroma:.1} counts (mean and chromatic part under the light)");
     if story.fate == LocalFate::Clipped {
         return format!(
             "{seen}, but it is clipped: only the ring around its blob can tell what of it is highlight"

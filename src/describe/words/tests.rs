@@ -52,6 +52,13 @@ fn refusals_say_how_far_outside() {
         slice(SliceBound::Surface, -9.5, -8.0),
         format!("{who}9.5 counts beyond the matte line, away from the light; 8.0 are allowed")
     );
+    let bands = Barrier::OtherBands { distance: 120.04, limit: 33.0 };
+    assert_eq!(
+        refused(bands),
+        format!(
+            "{who}its bands that do not clip are 120.0 counts from any body and surface reflection of it, at most 33.0"
+        )
+    );
     assert_eq!(
         slice(SliceBound::MatteEnd, 212.0, 190.0),
         format!("{who}body reflection 212.0 counts, past the end of the matte line at 190.0")

@@ -10,7 +10,7 @@
 //! far as a pixel has surface reflection.
 
 use super::desaturation_map::DesaturationMap;
-use crate::color::{dot, vec3};
+use crate::color::{dot, length, vec3};
 use crate::intrinsic::images::Images;
 use crate::raster::{Mask, Raster, Roi};
 use crate::segment::AnalysisInput;
@@ -167,8 +167,4 @@ fn most_probable(directions: &Raster<Direction>, index: usize, weights: &[([isiz
     }
     let length = length(sum);
     if length > 0.0 { sum.map(|band| band / length) } else { own.unit }
-}
-
-fn length(color: [f32; 3]) -> f32 {
-    dot(color, color).sqrt()
 }

@@ -8,10 +8,11 @@
 //! which the working picture was filled, which a clipped pixel takes.
 
 use super::chromaticity::changed;
+use super::hue_restoration::{by_hue, clip_thresholds, only_clipped_band};
 use super::lamps::Lamp;
 use super::linear_weights::linear_weights;
 use super::repair::CONFIDENCE;
-use super::{LocalSplit, undo_unexplained};
+use super::{LocalSplit, Moved, undo_unexplained};
 use crate::intrinsic::detail::Detail;
 use crate::intrinsic::images::Images;
 use crate::raster::{Blocks, Mask, Raster};
@@ -48,7 +49,8 @@ pub fn split_locally_at_full_resolution(
         images.kinds.as_mut_slice().par_chunks_mut(width.max(1)),
         confidence.as_mut_slice().par_chunks_mut(width.max(1)),
     );
-    let by_working_picture = ByWorkingPicture { working, local };
+    let thresholds = clip_thresholds(&detail.input, &working.origin);
+    let by_working_picture = ByWorkingPicture { working, local, thresholds };
     rows.into_par_iter().enumerate().for_each(|(y, (body, surface, kinds, confidence))| {
         if detail.input.stopped() {
             return;
@@ -61,10 +63,13 @@ pub fn split_locally_at_full_resolution(
             let nearest = Nearest::new(&detail.blocks, x, y);
             let color = detail.input.pixels[pixel];
             let is_clipped = detail.input.masks.clipped(pixel);
+            let working_pixel = detail.blocks.block_of(pixel);
             let found = if is_clipped {
-                by_working_picture.filled(color, &nearest)
+                by_working_picture
+                    .restored(color, working_pixel, &nearest)
+                    .or_else(|| by_working_picture.filled(color, &nearest))
             } else {
-                by_working_picture.split(color, detail.blocks.block_of(pixel), &nearest)
+                by_working_picture.split(color, color, working_pixel, &nearest)
             };
             let Some(found) = found else { continue };
             (body[x], surface[x], confidence[x]) = (found.body, found.surface, found.confidence);
@@ -90,12 +95,31 @@ struct PixelSplit {
 struct ByWorkingPicture<'a> {
     working: &'a LocalWorkingSplit<'a>,
     local: &'a LocalSplit,
+    /// Value from which on each band is clipped, counts above the ambient light.
+    thresholds: [f32; 3],
 }
 
 impl ByWorkingPicture<'_> {
-    /// The split of an unclipped pixel in the block of `working_pixel` by the lines of the nearest working pixels; none where there is no
-    /// surface reflection.
-    fn split(&self, color: [f32; 3], working_pixel: usize, nearest: &Nearest) -> Option<PixelSplit> {
+    /// The split of a pixel whose only clipped band is restored by the hue of the nearest working pixels; none where the band cannot be
+    /// restored, or there is no surface reflection.
+    fn restored(&self, color: [f32; 3], working_pixel: usize, nearest: &Nearest) -> Option<PixelSplit> {
+        let hues = self.local.hues.as_ref()?;
+        let band = only_clipped_band(color, &self.thresholds)?;
+        let hue = nearest.mean(|pixel| hues.at(pixel))?;
+        let mut whole = color;
+        whole[band] = by_hue(color, band, hue, self.local.lamps.of(working_pixel))?;
+        self.split(whole, color, working_pixel, nearest)
+    }
+
+    /// The split of a pixel in the block of `working_pixel` by the lines of the nearest working pixels; none where there is no
+    /// surface reflection. `color`: with a restored band, else that of the file, which is the `limit` of body reflection.
+    fn split(
+        &self,
+        color: [f32; 3],
+        limit: [f32; 3],
+        working_pixel: usize,
+        nearest: &Nearest,
+    ) -> Option<PixelSplit> {
         let LocalSplit { lines, lamps, confidence: of_working, chromaticity, .. } = self.local;
         let Lamp { gain, per_amount } = lamps.of(working_pixel);
         let a = gain.mean(color);
@@ -104,13 +128,12 @@ impl ByWorkingPicture<'_> {
         if amount <= 0.0 {
             return None;
         }
-        let surface: [f32; 3] =
-            std::array::from_fn(|band| (amount * per_amount[band]).min(color[band].max(0.0)));
-        let mut body = std::array::from_fn(|band| color[band] - surface[band]);
+        let moved = Moved::new(color, amount, per_amount);
+        let mut body = moved.body_below(limit);
         if let Some(change) = nearest.mean(|pixel| chromaticity.at(pixel)) {
-            body = changed(body, change, color);
+            body = changed(body, change, limit);
         }
-        Some(PixelSplit { body, surface, confidence })
+        Some(PixelSplit { body, surface: moved.surface, confidence })
     }
 
     /// The split of a clipped pixel by the body reflection with which the working picture was filled; none where it was not filled.

@@ -5,7 +5,7 @@
 //! reflection adds the light's color, and so lowers a pixel's saturation below the saturation of the same hue around
 //! the pixel. J = I / (√3 s) is the color under a white light, with the unit vector s of the light; a is the mean of J,
 //! c the length of its chromatic part, κ the ratio a/c of body reflection, and m_s = max(a − κc, 0) the excess
-//! (`hue_ratios`, and `region_ratios` for pale regions). `desaturation_map` measures the excess, `evidence` tells highlights from white print, `plausibility`
+//! (`hue_ratios`, and `region_ratios` for pale regions). `hue_restoration` gives J a band that alone is clipped, `desaturation_map` measures the excess, `evidence` tells highlights from white print, `plausibility`
 //! whether the light is known well enough, `guided` makes the amounts follow the edges of the picture, and `repair`
 //! fills clipped pixels.
 //!
@@ -18,6 +18,7 @@ mod evidence;
 mod full_resolution;
 mod guided;
 mod hue_ratios;
+mod hue_restoration;
 mod lamps;
 mod limits;
 mod linear_weights;
@@ -25,9 +26,11 @@ mod observations;
 mod plausibility;
 mod region_ratios;
 mod repair;
+mod surroundings;
 mod trace_writer;
 
 pub use full_resolution::{LocalWorkingSplit, split_locally_at_full_resolution};
+pub use hue_restoration::HueRestored;
 pub use lamps::Lamps;
 pub use observations::Observations;
 pub use region_ratios::Regions;
@@ -41,6 +44,7 @@ use chromaticity::ChromaticityChanges;
 use desaturation_map::DesaturationMap;
 use evidence::Evidence;
 use guided::AmountLines;
+use hue_restoration::Hues;
 use rayon::prelude::*;
 use trace_writer::LocalTraceWriter;
 
@@ -53,6 +57,8 @@ const LEAST_SHARE: f64 = 0.01;
 pub struct LocalInput<'a> {
     /// The picture, colors in counts above the ambient light.
     pub input: &'a AnalysisInput<'a>,
+    /// The bands that were restored by hue; none where there are none.
+    pub restored: Option<&'a HueRestored>,
     /// The light, and the evidence of it.
     pub light: LightFindings,
     /// The lamps; none where no light is known or a band of the light is zero.
@@ -75,6 +81,8 @@ pub struct LocalSplit {
     pub confidence: Raster<f32>,
     /// The pixels of clipped blobs that were filled from around.
     filled: Mask,
+    /// The hues by which clipped bands of the photograph are restored; none where no band of the working picture was restored.
+    hues: Option<Hues>,
     /// The changes of the chromaticity of body reflection.
     chromaticity: ChromaticityChanges,
 }
@@ -102,11 +110,12 @@ fn least_pixels(lit: usize) -> usize {
 
 /// Splits the lit pixels that no region explains. Returns what [`split_locally`] returns.
 fn split_unexplained<R: Recorder>(
-    LocalInput { input, light: findings, lamps, observations, regions, .. }: &LocalInput,
+    LocalInput { input: original, restored, light: findings, lamps, observations, regions, .. }: &LocalInput,
     unexplained: &Mask,
     images: &mut Images,
     trace_writer: &mut LocalTraceWriter<R>,
 ) -> Option<LocalSplit> {
+    let input = &restored.map_or(**original, |restored| restored.input(original));
     let pixels = unexplained.count();
     let lit = (0..unexplained.len()).filter(|&pixel| !input.masks.dark(pixel)).count();
     let few = pixels < least_pixels(lit);
@@ -125,7 +134,7 @@ fn split_unexplained<R: Recorder>(
     trace_writer.began(input, &limits, start, pixels, lit, findings);
     let Observations { map, evidence, .. } = observed?;
     let judged = evidence.as_ref().map(|evidence| (evidence, evidence.picture_odds(map, unexplained)));
-    trace_writer.judged(input, map, judged, unexplained);
+    trace_writer.judged(input, map, judged, unexplained, *restored);
     if input.refine.belief {
         let tested = plausibility::test(input, findings);
         let is_plausible = tested.plausible();
@@ -140,7 +149,9 @@ fn split_unexplained<R: Recorder>(
     if input.refine.clip_repair {
         trace_writer.repairs_began();
         let found = repair::LocalAmounts { map, weights: &weights, amounts: &amounts };
-        fills = repair::fills(input, unexplained, &found, |tried, blob| trace_writer.repair(tried, blob));
+        fills = repair::fills(original, input, unexplained, &found, |tried, blob| {
+            trace_writer.repair(tried, blob)
+        });
         amounts = repair::faded(input, unexplained, map, &fills, amounts);
     }
     let lines = if input.refine.guided_amount {
@@ -154,12 +165,13 @@ fn split_unexplained<R: Recorder>(
         line.map_or(0.0, |line| line.amount(map.colors[index].mean))
     });
     trace_writer.amounts(&amounts);
-    let mut confidence = move_surface(map, &amounts, &weights, images);
+    let mut confidence = move_surface(original, input, map, &amounts, &weights, images);
     let chromaticity = ChromaticityChanges::around_highlights(input, map, unexplained, images);
-    chromaticity.apply(input, images);
+    chromaticity.apply(original, images);
     trace_writer.chromaticity(&chromaticity);
     let filled = repair::fill(input, &fills, images, &mut confidence);
-    Some(LocalSplit { lines, lamps: map.lamps.clone(), confidence, filled, chromaticity })
+    let hues = restored.map(|_| Hues::new(map, &limits));
+    Some(LocalSplit { lines, lamps: map.lamps.clone(), confidence, filled, hues, chromaticity })
 }
 
 /// The share of the excess m_s of each pixel of the window that is surface reflection, 0…1; 0 for pixels that a region
@@ -214,8 +226,12 @@ fn undo_unexplained(input: &AnalysisInput, explained_mask: &Mask, images: &mut I
     unexplained
 }
 
-/// Moves the `amounts` of surface reflection, counts of J, from the body image to the surface image. Returns the confidence of each pixel by its weight, 0 where nothing was moved.
+/// Moves the `amounts` of surface reflection, counts of J, from the body image to the surface image. Body reflection is what remains of
+/// the color with its restored bands (`input`), at most the color of the file (`original`). Returns the confidence of each pixel by its
+/// weight, 0 where nothing was moved.
 fn move_surface(
+    original: &AnalysisInput,
+    input: &AnalysisInput,
     map: &DesaturationMap,
     amounts: &Raster<f32>,
     weights: &Raster<f32>,
@@ -234,17 +250,41 @@ fn move_surface(
     rows.enumerate().for_each(|(row, (body, surface, kinds, confidence))| {
         let found = weights.row(row).iter().zip(amounts.row(row));
         for (x, (&weight, &amount)) in (roi.left..).zip(found).filter(|(_, (_, amount))| **amount > 0.0) {
-            // The surface reflection in a band is at most the input in that band.
-            let per_amount = map.lamps.of((roi.top + row) * width + x).per_amount;
-            surface[x] = std::array::from_fn(|band| (amount * per_amount[band]).min(body[x][band].max(0.0)));
-            body[x] = std::array::from_fn(|band| body[x][band] - surface[x][band]);
+            let pixel = (roi.top + row) * width + x;
+            let moved = Moved::new(input.pixels[pixel], amount, &map.lamps.of(pixel).per_amount);
+            (body[x], surface[x]) = (moved.body_below(original.pixels[pixel]), moved.surface);
             if weight > 0.0 && kinds[x] != PixelKind::Unassigned {
-                kinds[x] = PixelKind::Highlight;
+                let is_restored = original.masks.clipped(pixel);
+                kinds[x] = if is_restored { PixelKind::Restored } else { PixelKind::Highlight };
             }
             confidence[x] = LOCAL * weight;
         }
     });
     confidence
+}
+
+/// A color without the surface reflection that was found in the pixel.
+struct Moved {
+    /// Surface reflection, counts: in a band at most the color in that band.
+    surface: [f32; 3],
+    /// Body reflection, counts.
+    body: [f32; 3],
+}
+
+impl Moved {
+    /// The split of a `color` with the `amount` of surface reflection, counts of J. `per_amount`: surface reflection in each band per count.
+    #[inline]
+    fn new(color: [f32; 3], amount: f32, per_amount: &[f32; 3]) -> Self {
+        let surface: [f32; 3] =
+            std::array::from_fn(|band| (amount * per_amount[band]).min(color[band].max(0.0)));
+        Self { surface, body: std::array::from_fn(|band| color[band] - surface[band]) }
+    }
+
+    /// The body reflection, in each band at most the color `limit` of the file: what a restored band has beyond it belongs to no file.
+    #[inline]
+    fn body_below(&self, limit: [f32; 3]) -> [f32; 3] {
+        std::array::from_fn(|band| self.body[band].min(limit[band]))
+    }
 }
 
 #[cfg(test)]

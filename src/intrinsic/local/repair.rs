@@ -9,6 +9,7 @@
 //! so that no hole is left in the middle of what may be a highlight.
 
 use super::desaturation_map::DesaturationMap;
+use super::surroundings::{Surroundings, harmonic};
 use crate::intrinsic::images::Images;
 use crate::raster::{ComponentSearch, Connectivity, Mask, PixelIndex, Raster, blur};
 use crate::segment::AnalysisInput;
@@ -54,26 +55,39 @@ pub struct Fill {
 }
 
 /// Judges the clipped blobs among the `unexplained` pixels. Returns the blobs that are filled. `record` receives each blob's verdict and pixels.
+///
+/// Where bands were restored by hue, what remains of a blob of `original` is one or more blobs of `input`. Each is filled where the ring
+/// around it or the ring around the whole blob says so, and the verdict that says so is recorded.
 pub fn fills(
+    original: &AnalysisInput,
     input: &AnalysisInput,
     unexplained: &Mask,
     found: &LocalAmounts,
     mut record: impl FnMut(RepairTried, &[usize]),
 ) -> Vec<Fill> {
-    let mut search = ComponentSearch::new(unexplained.width(), unexplained.height(), Connectivity::Eight);
-    let mut surroundings = Surroundings { input, in_ring: unexplained.map(|_| false) };
+    let search = || ComponentSearch::new(unexplained.width(), unexplained.height(), Connectivity::Eight);
+    let (mut whole_blobs, mut blobs) = (search(), search());
+    let mut around_whole = Surroundings::new(original.masks);
+    let mut surroundings = Surroundings::new(input.masks);
+    let clipped_before = |pixel: usize| unexplained[pixel] && original.masks.clipped(pixel);
     let clipped = |pixel: usize| unexplained[pixel] && input.masks.clipped(pixel);
     let mut fills = Vec::new();
     for start in 0..unexplained.len() {
-        let Some(blob) = search.component_at(start, clipped) else { continue };
+        let Some(whole) = whole_blobs.component_at(start, clipped_before) else { continue };
         if input.stopped() {
             break;
         }
-        let around = surroundings.around(blob, |pixel| found.is_highlight(pixel));
-        let tried = found.tried(input, blob, &around);
-        record(tried, blob);
-        if tried.verdict == RepairVerdict::Filled {
-            fills.push(Fill { blob: blob.to_vec(), rings: around.rings });
+        let around = Around::of(whole, &mut around_whole, |pixel| found.is_highlight(pixel));
+        let tried_whole = found.tried(original, whole, &around);
+        for &first in whole {
+            let Some(blob) = blobs.component_at(first, clipped) else { continue };
+            let around = Around::of(blob, &mut surroundings, |pixel| found.is_highlight(pixel));
+            let own = found.tried(input, blob, &around);
+            let tried = if own.verdict == RepairVerdict::Filled { own } else { tried_whole };
+            record(tried, blob);
+            if tried.verdict == RepairVerdict::Filled {
+                fills.push(Fill { blob: blob.to_vec(), rings: around.rings });
+            }
         }
     }
     fills
@@ -110,9 +124,8 @@ pub fn fill(
     confidence: &mut Raster<f32>,
 ) -> Mask {
     let mut all_filled = Mask::filled(confidence.width(), confidence.height(), false);
-    let surroundings = Surroundings { input, in_ring: Mask::default() };
     for Fill { blob, rings } in fills {
-        let filled = surroundings.harmonic(blob, rings, &images.body);
+        let filled = harmonic(input.masks, blob, rings, |pixel| images.body[pixel]);
         for (&pixel, fill) in blob.iter().zip(filled) {
             let input = input.pixels[pixel];
             images.body[pixel] = std::array::from_fn(|band| fill[band].clamp(0.0, input[band].max(0.0)));
@@ -177,7 +190,7 @@ impl LocalAmounts<'_> {
         } else {
             RepairVerdict::Filled
         };
-        let pixel = PixelIndex::from_index(blob.first().copied().unwrap_or(0));
+        let pixel = PixelIndex::from_index(blob.iter().min().copied().unwrap_or(0));
         let [inner, outer] = rise;
         RepairTried {
             blob: 0,
@@ -209,101 +222,16 @@ struct Around {
     highlights: usize,
 }
 
-/// Finds the unclipped pixels around blobs of clipped pixels.
-struct Surroundings<'a> {
-    input: &'a AnalysisInput<'a>,
-    /// The pixels that are already in a ring of the current blob; all false between two blobs.
-    in_ring: Mask,
-}
-
-impl Surroundings<'_> {
-    /// The pixels around a blob.
-    fn around(&mut self, blob: &[usize], is_highlight: impl Fn(usize) -> bool) -> Around {
+impl Around {
+    /// The pixels around `blob`.
+    fn of(blob: &[usize], surroundings: &mut Surroundings, is_highlight: impl Fn(usize) -> bool) -> Self {
         let reach_px = AROUND_PX.max(0.5 * (blob.len() as f32).sqrt()) as usize;
         let enough = (LEAST_AROUND * blob.len() as f32).ceil() as usize;
-        let count = |ring: &[usize]| ring.iter().filter(|&&pixel| is_highlight(pixel)).count();
-        let inner = self.ring(blob);
-        let outer = self.ring(&inner);
-        let mut highlights = count(&inner) + count(&outer);
-        let mut outer_rings = vec![outer.clone()];
-        while outer_rings.len() + 1 < reach_px && highlights < enough {
-            let next = self.ring(outer_rings.last().map_or(&[], Vec::as_slice));
-            if next.is_empty() {
-                break;
-            }
-            highlights += count(&next);
-            outer_rings.push(next);
-        }
-        inner.iter().chain(outer_rings.iter().flatten()).for_each(|&pixel| self.in_ring[pixel] = false);
-        Around { rings: [inner, outer], highlights }
-    }
-
-    /// Whether the value of a pixel can be used: the pixel is neither clipped nor invalid nor outside of the analyzed area.
-    fn known(&self, pixel: usize) -> bool {
-        let masks = self.input.masks;
-        !masks.clipped(pixel) && !masks.invalid(pixel) && !masks.outside(pixel)
-    }
-
-    /// The known pixels next to the pixels `from` that are in no ring yet; see [`Self::known`].
-    fn ring(&mut self, from: &[usize]) -> Vec<usize> {
-        let mut ring = Vec::new();
-        for &pixel in from {
-            for near in self.in_ring.around(pixel) {
-                if !self.in_ring[near] && self.known(near) {
-                    self.in_ring[near] = true;
-                    ring.push(near);
-                }
-            }
-        }
-        ring
-    }
-
-    /// The harmonic fill of a blob: body colors, each the mean of its neighbors, by successive over-relaxation.
-    fn harmonic(&self, blob: &[usize], rings: &[Vec<usize>; 2], body: &Raster<[f32; 3]>) -> Vec<[f32; 3]> {
-        let ring = || rings.iter().flatten().map(|&pixel| body[pixel]);
-        let count = ring().count() as f32;
-        let sum = ring().fold([0.0f32; 3], |sum, color| std::array::from_fn(|band| sum[band] + color[band]));
-        let mut values = vec![sum.map(|sum| sum / count); blob.len()];
-        let mut order: Vec<usize> = (0..blob.len()).collect();
-        order.sort_unstable_by_key(|&index| blob[index]);
-        let place = |pixel: usize| {
-            let found = order.binary_search_by_key(&pixel, |&index| blob[index]);
-            found.ok().map(|at| order[at])
-        };
-        // Of each pixel: the neighbors inside the blob; the sum of the colors of the known neighbors outside; the
-        // number of all these neighbors.
-        let mut near = vec![[usize::MAX; 4]; blob.len()];
-        let mut fixed = vec![([0.0f32; 3], 0.0f32); blob.len()];
-        for (index, &pixel) in blob.iter().enumerate() {
-            let (border, weight) = &mut fixed[index];
-            let mut inside = 0;
-            body.for_each_neighbor(pixel, |next| {
-                if let Some(other) = place(next) {
-                    near[index][inside] = other;
-                    inside += 1;
-                } else if self.known(next) {
-                    border.iter_mut().zip(body[next]).for_each(|(sum, band)| *sum += band);
-                } else {
-                    return;
-                }
-                *weight += 1.0;
-            });
-        }
-        let across = (blob.len() as f32).sqrt() + 2.0;
-        let relaxation = 2.0 / (1.0 + std::f32::consts::PI / across);
-        for _ in 0..(3.0 * across) as usize + 20 {
-            for &index in &order {
-                let (mut sum, weight) = fixed[index];
-                for &next in near[index].iter().take_while(|&&next| next != usize::MAX) {
-                    sum.iter_mut().zip(values[next]).for_each(|(sum, band)| *sum += band);
-                }
-                if weight > 0.0 {
-                    for band in 0..3 {
-                        values[index][band] += relaxation * (sum[band] / weight - values[index][band]);
-                    }
-                }
-            }
-        }
-        values
+        let mut highlights = 0;
+        let rings = surroundings.rings(blob, |number, ring| {
+            highlights += ring.iter().filter(|&&pixel| is_highlight(pixel)).count();
+            number < reach_px && highlights < enough
+        });
+        Self { rings, highlights }
     }
 }

@@ -3,6 +3,7 @@
 use super::chromaticity::ChromaticityChanges;
 use super::desaturation_map::DesaturationMap;
 use super::evidence::Evidence;
+use super::hue_restoration::HueRestored;
 use super::least_pixels;
 use crate::raster::{Mask, Raster};
 use crate::segment::{AnalysisInput, LightFindings};
@@ -63,19 +64,22 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
         });
     }
 
-    /// Records what each pixel of the window is judged by.
+    /// Records what each pixel of the window is judged by, and the bands that were `restored` before.
     pub fn judged(
         &mut self,
         input: &AnalysisInput,
         map: &DesaturationMap,
         evidence: Option<(&Evidence, PictureOddsFound)>,
         unexplained: &Mask,
+        restored: Option<&HueRestored>,
     ) {
         if !R::KEEPS {
             return;
         }
+        let restored = restored.map_or(Vec::new(), |restored| restored.bands.clone());
         let terms = evidence.map(|(terms, _)| terms);
-        self.points = Some(LocalPoints { roi: map.roi, of: points(input, map, terms, unexplained) });
+        let of = points(input, map, terms, unexplained);
+        self.points = Some(LocalPoints { roi: map.roi, of, restored });
         if let Some((_, picture)) = evidence {
             self.record(picture);
         }
@@ -120,7 +124,7 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
             return;
         }
         self.numbered += 1;
-        if let Some(LocalPoints { roi, of }) = &mut self.points {
+        if let Some(LocalPoints { roi, of, .. }) = &mut self.points {
             for index in blob.iter().filter_map(|&pixel| roi.index(pixel)) {
                 of[index].set_blob(self.numbered);
             }

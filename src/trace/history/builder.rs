@@ -2,7 +2,7 @@
 //! state of the analysis ([`ReplayState`]) at each of them.
 
 use super::facts::{amounts, verdicts};
-use super::growth::{Growth, Reaching, growing_test, highlight_test};
+use super::growth::{Growth, Reaching, clipped_test, growing_test, highlight_test};
 use super::local::Outside;
 use super::patch::Patch;
 use super::{BorderLimit, HistoryEntry, HistoryKind, Release, SplitStory, Unfit};
@@ -41,6 +41,8 @@ pub(super) struct HistoryBuilder<'a> {
     near: Vec<(usize, Option<HypothesisId>)>,
     /// The hypothesis that has the pixel.
     holder: Option<HypothesisId>,
+    /// Value from which on a band is clipped, counts.
+    clip_threshold: f64,
     /// Whether distorted pixels cannot be claimed before the clipping stage.
     distorted_wait: bool,
     /// The state after the events so far.
@@ -76,6 +78,7 @@ impl<'a> HistoryBuilder<'a> {
             color: image.pixels[pixel],
             near,
             holder: None,
+            clip_threshold: f64::INFINITY,
             distorted_wait: false,
             state: ReplayState::default(),
             outside: Outside::of(trace, &end, image, masks, pixel),
@@ -149,6 +152,7 @@ impl<'a> HistoryBuilder<'a> {
         self.state.take(event, id);
         match event {
             Event::MasksMade(made) => {
+                self.clip_threshold = made.limits.clip_threshold;
                 for verdict in verdicts(self.image, self.masks, &made.limits, self.pixel) {
                     self.note(step, HistoryKind::Masked(verdict));
                 }
@@ -235,18 +239,22 @@ impl<'a> HistoryBuilder<'a> {
 
     fn begin_growth(&mut self, step: usize, hypothesis: HypothesisId, limit: f32) {
         self.cause = Cause::Growth;
+        let fitted = self.end.vectors_of(self.trace, hypothesis);
         let reaching = match self.stage {
             Stage::Linear => {
                 self.cylinder(hypothesis).map(|(cylinder, radius)| Reaching::Cylinder(cylinder, radius))
             }
             Stage::Planar => self.state.slice(self.trace, hypothesis).map(Reaching::Slice),
-            _ => Some(Reaching::Brighter(limit)),
+            _ => Some(Reaching::Brighter(
+                limit,
+                fitted.and_then(|fitted| clipped_test(fitted, self.clip_threshold)),
+            )),
         };
         let Some(reaching) = reaching else { return };
-        let test = self.end.vectors_of(self.trace, hypothesis).and_then(growing_test);
+        let test = fitted.and_then(growing_test);
         // Growth by brightness starts from highlight pixels only.
         let grows = |pixel: usize| match reaching {
-            Reaching::Brighter(_) => test.is_some_and(|test| test.is_highlight(self.image.pixels[pixel])),
+            Reaching::Brighter(..) => test.is_some_and(|test| test.is_highlight(self.image.pixels[pixel])),
             _ => true,
         };
         let beside = self.near.iter().any(|&(pixel, holder)| holder == Some(hypothesis) && grows(pixel));
@@ -259,7 +267,7 @@ impl<'a> HistoryBuilder<'a> {
         else {
             return;
         };
-        let by_brightness = matches!(reaching, Reaching::Brighter(_));
+        let by_brightness = matches!(reaching, Reaching::Brighter(..));
         let claimable = if by_brightness {
             self.masks.claimable_by_brightness(self.pixel)
         } else {

@@ -3,7 +3,7 @@
 use super::{Barrier, Reach};
 use crate::color::{Cylinder, dot};
 use crate::raster::HypothesisId;
-use crate::reflection::HighlightTest;
+use crate::reflection::{ClippedColorTest, HighlightTest};
 use crate::trace::{SliceMade, VectorsFitted};
 
 /// The colors that a growing hypothesis accepts.
@@ -13,8 +13,8 @@ pub(super) enum Reaching<'a> {
     Cylinder(Cylinder, f64),
     /// Colors inside a slice (5.4.2).
     Slice(&'a SliceMade),
-    /// Colors brighter than this, counts (5.5).
-    Brighter(f32),
+    /// Colors brighter than this, counts, whose unclipped bands can be those of the region, where that is asked (5.5).
+    Brighter(f32, Option<ClippedColorTest>),
 }
 
 impl Reaching<'_> {
@@ -27,7 +27,7 @@ impl Reaching<'_> {
             Self::Slice(made) => {
                 Reach::Plane { distance: made.slice.distance(color), half_width: made.half_width }
             }
-            Self::Brighter(start) => Reach::Brightness { brightness: brightness(color), start },
+            Self::Brighter(start, _) => Reach::Brightness { brightness: brightness(color), start },
         }
     }
 
@@ -37,9 +37,15 @@ impl Reaching<'_> {
             Self::Cylinder(cylinder, radius) => (!cylinder.contains(color))
                 .then(|| Barrier::Cylinder { distance: cylinder.distance2(color).sqrt(), radius }),
             Self::Slice(made) => made.slice.miss(color).map(Barrier::Slice),
-            // The trace keeps the square root of the bound that was compared, so that a tie can round either way. The caller
-            // knows that the pixel was not taken.
-            Self::Brighter(start) => Some(Barrier::Darker { brightness: brightness(color), start }),
+            Self::Brighter(start, test) => {
+                let brightness = brightness(color);
+                let refusal = test.filter(|_| brightness > start).and_then(|test| test.refusal(color));
+                // The trace keeps the square root of the bound that was compared, so that a tie can round either way. The
+                // caller knows that the pixel was not taken.
+                Some(refusal.map_or(Barrier::Darker { brightness, start }, |[distance, limit]| {
+                    Barrier::OtherBands { distance, limit }
+                }))
+            }
         }
     }
 }
@@ -52,6 +58,13 @@ pub(super) fn brightness(color: [f32; 3]) -> f32 {
 /// The test of the highlight pixels from which growth by brightness starts.
 pub(super) fn growing_test(fitted: &VectorsFitted) -> Option<HighlightTest> {
     fitted.highlight.map(|surface| HighlightTest::of_lines(&fitted.matte, &[fitted.start], &surface))
+}
+
+/// The test of the clipped colors that growth by brightness takes. `clip_threshold`: counts.
+pub(super) fn clipped_test(fitted: &VectorsFitted, clip_threshold: f64) -> Option<ClippedColorTest> {
+    let VectorsFitted { matte, highlight, .. } = fitted;
+    let surface = highlight.as_ref()?;
+    Some(ClippedColorTest::new(&matte.foot(), &matte.direction, surface, clip_threshold as f32))
 }
 
 /// The test of the highlight pixels of a region of the result.

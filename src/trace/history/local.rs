@@ -6,8 +6,8 @@ use crate::reflection::{Desaturation, WhitenedColor, WhiteningGain};
 use crate::trace::replay_state::ReplayState;
 use crate::trace::timeline::EventId;
 use crate::trace::{
-    Event, LocalBegan, LocalPoint, LocalStart, PictureOddsFound, PlausibilityTested, RepairVerdict, Stage,
-    Trace,
+    Event, LocalBegan, LocalPoint, LocalStart, PictureOddsFound, PlausibilityTested, RepairVerdict,
+    RestoredBand, Stage, Trace,
 };
 
 /// The decisions about a pixel that no region explains, and their outcome.
@@ -33,9 +33,11 @@ impl Outside {
             return None;
         }
         let point = record.point(pixel).copied();
+        let restored = record.restored(pixel).copied();
         let mut decisions = Decisions {
             color: image.pixels[pixel],
-            clipped: masks.clipped(pixel),
+            clipped: masks.clipped(pixel) && restored.is_none(),
+            restored,
             point,
             light: decisive_light(trace, end),
             ..Decisions::default()
@@ -62,7 +64,9 @@ fn decisive_light<'t>(trace: &'t Trace, end: &ReplayState) -> Option<(usize, &'t
 struct Decisions<'a> {
     /// Color of the pixel, counts.
     color: [f32; 3],
+    /// Whether a band is clipped that was not restored.
     clipped: bool,
+    restored: Option<RestoredBand>,
     point: Option<LocalPoint>,
     light: Option<(usize, &'a Event)>,
     began: Option<(usize, &'a LocalBegan)>,
@@ -127,9 +131,12 @@ impl<'a> Decisions<'a> {
             began.light
         };
         let gain = light.and_then(|light| WhiteningGain::new(&light.into()));
-        let color = gain.map_or(WhitenedColor::default(), |gain| {
-            gain.whitened(std::array::from_fn(|band| self.color[band] - began.origin[band] as f32))
-        });
+        let mut above_ambient: [f32; 3] =
+            std::array::from_fn(|band| self.color[band] - began.origin[band] as f32);
+        if let Some(RestoredBand { band, value, .. }) = self.restored {
+            above_ambient[usize::from(band)] = value;
+        }
+        let color = gain.map_or(WhitenedColor::default(), |gain| gain.whitened(above_ambient));
         let limits = began.limits;
         let found = figures
             .ratios
@@ -140,6 +147,7 @@ impl<'a> Decisions<'a> {
         LocalStory {
             mean: color.mean,
             chroma: color.chroma,
+            restored: self.restored,
             ratios: figures.ratios,
             body: found.body,
             excess: found.surface,

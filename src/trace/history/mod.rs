@@ -314,6 +314,13 @@ pub enum Barrier {
     },
     /// The color lies outside the slice.
     Slice(SliceMiss),
+    /// A band of the color clips, and the other bands are not those of body and surface reflection of the region.
+    OtherBands {
+        /// Distance from the nearest color that body and surface reflection can have, counts.
+        distance: f32,
+        /// The largest distance, counts.
+        limit: f32,
+    },
     /// The color is no brighter than the point where the highlight starts.
     Darker {
         /// Distance from black, counts.

@@ -2,7 +2,7 @@
 
 use crate::raster::RegionId;
 use crate::reflection::Components;
-use crate::trace::{FitFigures, FitLimits, HighlightTerms, LocalLimits, PixelKind};
+use crate::trace::{FitFigures, FitLimits, HighlightTerms, LocalLimits, PixelKind, RestoredBand};
 
 /// How a pixel was split.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -70,6 +70,8 @@ pub struct LocalStory {
     pub mean: f32,
     /// c: the length of the chromatic part of J, counts.
     pub chroma: f32,
+    /// The band that was restored by the hue around, because it alone is clipped: a and c contain it. None where no band was restored.
+    pub restored: Option<RestoredBand>,
     /// κ: the ratio a/c of the body around the pixel, or of its region where that is clearly paler, and the median of a/c there; none
     /// where no pixel around has the hue of this one.
     pub ratios: Option<[f32; 2]>,

@@ -141,7 +141,7 @@ mod tests {
                 verdict,
             });
         }
-        recorder.local(LocalRecord::Points(LocalPoints { roi: window, of }));
+        recorder.local(LocalRecord::Points(LocalPoints { roi: window, of, restored: Vec::new() }));
         let stage_trace = Arc::new(recorder.finish(Stage::Split).unwrap());
         let mut replay = Replay::new(Arc::new(Trace::new(4, 2, vec![stage_trace])));
         assert_eq!(blob_at_cursor(&replay), None);

@@ -1,0 +1,115 @@
+//! The unclipped pixels around blobs of clipped pixels, and the harmonic fill of a blob: the smoothest that is continuous with them.
+
+use crate::photo::Masks;
+use crate::raster::{Mask, Raster};
+
+/// Finds the unclipped pixels around blobs of clipped pixels, ring by ring.
+pub struct Surroundings<'a> {
+    masks: &'a Masks,
+    /// The pixels that are already in a ring of the current blob; all false between two blobs.
+    in_ring: Mask,
+}
+
+impl<'a> Surroundings<'a> {
+    /// The surroundings in a picture with these masks.
+    pub fn new(masks: &'a Masks) -> Self {
+        let (width, height) = masks.shape();
+        Self { masks, in_ring: Raster::filled(width, height, false) }
+    }
+
+    /// The first two rings around a blob: the known pixels next to the blob, and those next to these; see [`is_known`]. `is_enlarged` is
+    /// given the number of each ring, from 1, and its pixels; from the second ring on, the next is found as long as it returns true.
+    pub fn rings(
+        &mut self,
+        blob: &[usize],
+        mut is_enlarged: impl FnMut(usize, &[usize]) -> bool,
+    ) -> [Vec<usize>; 2] {
+        let mut rings: Vec<Vec<usize>> = Vec::new();
+        loop {
+            let ring = self.ring(rings.last().map_or(blob, Vec::as_slice));
+            let goes_on = is_enlarged(rings.len() + 1, &ring) || rings.is_empty();
+            let is_last = ring.is_empty() && !rings.is_empty();
+            rings.push(ring);
+            if is_last || (rings.len() >= 2 && !goes_on) {
+                break;
+            }
+        }
+        rings.iter().flatten().for_each(|&pixel| self.in_ring[pixel] = false);
+        let mut rings = rings.into_iter();
+        std::array::from_fn(|_| rings.next().unwrap_or_default())
+    }
+
+    /// The known pixels next to the pixels `from` that are in no ring yet.
+    fn ring(&mut self, from: &[usize]) -> Vec<usize> {
+        let mut ring = Vec::new();
+        for &pixel in from {
+            for near in self.in_ring.around(pixel) {
+                if !self.in_ring[near] && is_known(self.masks, near) {
+                    self.in_ring[near] = true;
+                    ring.push(near);
+                }
+            }
+        }
+        ring
+    }
+}
+
+/// Whether the value of a pixel can be used: the pixel is neither clipped nor invalid nor outside of the analyzed area.
+fn is_known(masks: &Masks, pixel: usize) -> bool {
+    !masks.clipped(pixel) && masks.has_value(pixel)
+}
+
+/// The harmonic fill of a blob by the `value` of the known pixels around: colors, each the mean of its neighbors, by successive
+/// over-relaxation that begins with the mean of the two `rings` around the blob.
+pub fn harmonic(
+    masks: &Masks,
+    blob: &[usize],
+    rings: &[Vec<usize>; 2],
+    value: impl Fn(usize) -> [f32; 3],
+) -> Vec<[f32; 3]> {
+    let ring = || rings.iter().flatten().map(|&pixel| value(pixel));
+    let count = ring().count() as f32;
+    let sum = ring().fold([0.0f32; 3], |sum, color| std::array::from_fn(|band| sum[band] + color[band]));
+    let mut values = vec![sum.map(|sum| sum / count); blob.len()];
+    let mut order: Vec<usize> = (0..blob.len()).collect();
+    order.sort_unstable_by_key(|&index| blob[index]);
+    let place = |pixel: usize| {
+        let found = order.binary_search_by_key(&pixel, |&index| blob[index]);
+        found.ok().map(|at| order[at])
+    };
+    // Of each pixel: the neighbors inside the blob; the sum of the colors of the known neighbors outside; the
+    // number of all these neighbors.
+    let mut near = vec![[usize::MAX; 4]; blob.len()];
+    let mut fixed = vec![([0.0f32; 3], 0.0f32); blob.len()];
+    for (index, &pixel) in blob.iter().enumerate() {
+        let (border, weight) = &mut fixed[index];
+        let mut inside = 0;
+        masks.for_each_neighbor(pixel, |next| {
+            if let Some(other) = place(next) {
+                near[index][inside] = other;
+                inside += 1;
+            } else if is_known(masks, next) {
+                border.iter_mut().zip(value(next)).for_each(|(sum, band)| *sum += band);
+            } else {
+                return;
+            }
+            *weight += 1.0;
+        });
+    }
+    let across = (blob.len() as f32).sqrt() + 2.0;
+    let relaxation = 2.0 / (1.0 + std::f32::consts::PI / across);
+    for _ in 0..(3.0 * across) as usize + 20 {
+        for &index in &order {
+            let (mut sum, weight) = fixed[index];
+            for &next in near[index].iter().take_while(|&&next| next != usize::MAX) {
+                sum.iter_mut().zip(values[next]).for_each(|(sum, band)| *sum += band);
+            }
+            if weight > 0.0 {
+                for band in 0..3 {
+                    values[index][band] += relaxation * (sum[band] / weight - values[index][band]);
+                }
+            }
+        }
+    }
+    values
+}
