@@ -124,11 +124,11 @@ exports! {
         available: |state| state.document.area.is_some(),
         writer: Writer::File(write::area),
     };
-    /// The regions table, tab separated.
+    /// The table of the regions, separated by commas, or by tabs in a file `.tsv` or `.txt`.
     Regions: ExportRow {
         title: "Regions table",
-        tip: "The regions and their vectors, separated by tabs.",
-        file: "regions.tsv",
+        tip: "The regions and their vectors: .csv separated by commas, .tsv and .txt by tabs.",
+        file: "regions.csv",
         offered: true,
         available: |_| true,
         writer: Writer::File(write::regions),

@@ -9,8 +9,8 @@ use crate::figures::{self, Scene};
 use crate::truth::{self, Reference, ReportInput};
 use crate::view::marking::mask_of;
 use crate::view::{
-    Against, Item, Picture, ResultSnapshot, layer_floats, paint_against, profile, profile_csv, regions_text,
-    selected,
+    Against, Item, Picture, ResultSnapshot, Separator, layer_floats, paint_against, profile, profile_csv,
+    regions_text, selected,
 };
 use std::error::Error;
 use std::path::{Path, PathBuf};
@@ -56,9 +56,13 @@ pub(super) fn area(path: &Path, _: &ExportOptions, input: &ExportInput) -> Resul
     Ok(file(path, selected::mask_png(area), "the area as a mask"))
 }
 
-/// The regions table, tab separated.
+/// The table of the regions, separated by commas, or by tabs in a file `.tsv` or `.txt`.
 pub(super) fn regions(path: &Path, _: &ExportOptions, input: &ExportInput) -> Result<Contents, String> {
-    Ok(file(path, regions_text(shown(input)?).into_bytes(), "the regions table"))
+    let separator = match extension_of(path).as_str() {
+        "tsv" | "txt" => Separator::Tab,
+        _ => Separator::Comma,
+    };
+    Ok(file(path, regions_text(shown(input)?, separator).into_bytes(), "the regions table"))
 }
 
 /// The numbers along the profile's line.

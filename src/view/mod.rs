@@ -99,6 +99,6 @@ pub use snapshot::ResultSnapshot;
 pub(crate) use snapshot::{best_overlap, best_overlaps};
 pub use solid::{Mesh, Solid};
 pub use statistics::{Band, Bounds, STATISTICS_BINS, Statistics, statistics, statistics_of};
-pub use table::regions_text;
+pub use table::{Separator, regions_text};
 pub use vector::Point;
 pub use verdict::{Clause, ClauseSubject, WIDE_INTERVAL_DEG, verdict};

@@ -42,6 +42,7 @@ fn every_kind_of_file_is_written_and_named() {
         (ExportKind::Selection.to(at("s.csv")), "as a table"),
         (ExportKind::Selection.to(at("s.PLY")), "as points"),
         (ExportKind::Regions.to(at("r.tsv")), "regions table"),
+        (ExportKind::Regions.to(at("r.csv")), "regions table"),
         (ExportKind::Profile.to(at("p.csv")), "profile"),
         (ExportKind::Layer.to(at("l.png")), "\u{201c}Input\u{201d}"),
         (ExportKind::Figures.to(at("f.html")), "figures and tables"),
@@ -60,6 +61,8 @@ fn every_kind_of_file_is_written_and_named() {
     let params: crate::params::Params = toml::from_str(&fs::read_to_string(at("p.toml")).unwrap()).unwrap();
     assert_eq!(params, crate::params::Params::default());
     assert_eq!(fs::read_to_string(at("p.csv")).unwrap().lines().count(), 5);
+    let first_heading = |name: &str| fs::read_to_string(at(name)).unwrap().chars().nth("region".len());
+    assert_eq!((first_heading("r.tsv"), first_heading("r.csv")), (Some('\t'), Some(',')));
     let page = fs::read_to_string(at("f.html")).unwrap();
     assert!(page.contains("Figure 7.") && page.contains("2\u{a0}regions") && page.contains("Along row 1 "));
 }

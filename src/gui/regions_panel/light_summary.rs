@@ -5,7 +5,7 @@ use super::vector;
 use crate::gui::theme::{BODY_PT, SMALL_PT};
 use crate::gui::{PanelContext, widgets};
 use crate::segment::{Illuminant, LightBasis, LightFindings};
-use crate::view::{ResultSnapshot, WIDE_INTERVAL_DEG, regions_text};
+use crate::view::{ResultSnapshot, Separator, WIDE_INTERVAL_DEG, regions_text};
 use egui::{Align, Label, Layout, RichText, Ui};
 
 /// Width of the button "Copy" with its margin, points.
@@ -18,7 +18,7 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
     let findings = &shown.analysis.finals.light;
     let copy = |ui: &mut Ui| {
         if ui.small_button("Copy").on_hover_text("The table as text, separated by tabs.").clicked() {
-            ui.ctx().copy_text(regions_text(shown));
+            ui.ctx().copy_text(regions_text(shown, Separator::Tab));
         }
     };
     let contents = |ui: &mut Ui| {
