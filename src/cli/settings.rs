@@ -1,11 +1,12 @@
 //! Parameters from flags and a TOML file: defaults of the method, or a preset < file < `--auto` < single flags.
 
+use super::note;
 use anyhow::{Context, Result, anyhow, bail};
 use clap::builder::{PossibleValue, PossibleValuesParser, TypedValueParser};
 use clap::{Arg, ArgMatches, Args, FromArgMatches};
 use dichroscope::params::{
     AmbientSetting, FeatureSet, IlluminantSetting, Method, Parameter, Params, PhoenixParameter, Preset,
-    Reading, Setting, Switch, toml_error,
+    Reading, Setting, Switch, toml_error, unread_tables,
 };
 use std::path::{Path, PathBuf};
 
@@ -81,6 +82,11 @@ impl Settings {
         self.read(&mut params)?;
         self.set_phoenix(&mut params)?;
         params.validate()?;
+        if let Some(path) = &self.params {
+            for sentence in unread_tables(&path.display().to_string(), &file.text, params.method) {
+                note(&format!("warning: {sentence}"));
+            }
+        }
         Ok(params)
     }
 
@@ -146,6 +152,7 @@ impl Settings {
 struct File {
     method: Option<Method>,
     table: toml::Table,
+    text: String,
 }
 
 fn read_toml(path: &Path) -> Result<File> {
@@ -155,7 +162,7 @@ fn read_toml(path: &Path) -> Result<File> {
     let params: Params = toml::from_str(&text).map_err(located)?;
     let table: toml::Table = toml::from_str(&text).map_err(located)?;
     params.validate().with_context(|| path.display().to_string())?;
-    Ok(File { method: table.contains_key("method").then_some(params.method), table })
+    Ok(File { method: table.contains_key("method").then_some(params.method), table, text })
 }
 
 /// `base` with the values of `table` in place of its own.

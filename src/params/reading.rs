@@ -11,6 +11,7 @@
 //! Both methods read the same switches. The paper's method takes what a person asked for, by default the column `paper` of the
 //! table. The refined method takes the fixed column `refined`.
 
+use super::nearest::hint;
 use super::stage::Stage;
 use serde::{Deserialize, Serialize};
 
@@ -299,7 +300,7 @@ impl Reading {
 
 /// A text that is no reading's name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0:?} is the name of no reading")]
+#[error("{0:?} is the name of no reading{close}", close = hint(.0, Reading::ALL.map(Reading::name)))]
 pub struct UnknownReading(pub String);
 
 impl Default for Readings {

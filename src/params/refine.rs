@@ -4,6 +4,7 @@
 //! `--with` and `--without`, the key of a parameter file, the checkbox with its tooltip, the stages that run again after a
 //! change, and a line of `docs/parameters.md`. Formulas stand in the header of the file that applies a switch.
 
+use super::nearest::hint;
 use super::stage::Stage;
 use serde::{Deserialize, Serialize};
 
@@ -290,7 +291,7 @@ impl Switch {
 
 /// A text that is no switch's name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{0:?} is the name of no refinement")]
+#[error("{0:?} is the name of no refinement{close}", close = hint(.0, Switch::ALL.map(Switch::name)))]
 pub struct UnknownSwitch(pub String);
 
 impl Default for Refine {
@@ -317,6 +318,9 @@ mod tests {
         let former: Refine = toml::from_str("texture_test = false\nhysteresis = true").unwrap();
         assert!(!former.highlight_evidence && former.guided_amount, "names of earlier versions");
         let error = Switch::from_name("second-look").unwrap_err();
-        assert_eq!(error.to_string(), "\"second-look\" is the name of no refinement");
+        assert_eq!(
+            error.to_string(),
+            "\"second-look\" is the name of no refinement; did you mean `second_look`?"
+        );
     }
 }

@@ -62,7 +62,9 @@ fn the_papers_method_takes_readings_and_added_refinements() {
     assert_eq!(params.refine, Refine { edge_body: true, ..Refine::all(false) });
     assert_eq!(params.readings, Some(Readings { fill_holes: false, ..Readings::PAPER }));
 
-    work.succeeds("analyze a.png --out out --params paper.toml --method refined");
+    let ended = work.succeeds("analyze a.png --out out --params paper.toml --method refined");
+    assert!(ended.err.starts_with("warning: paper.toml:"), "{}", ended.err);
+    assert!(ended.err.contains(": [paper] is not used, because"), "{}", ended.err);
     let params = work.report("out/a").params;
     assert_eq!((params.refine, params.readings), (Refine::all(true), None), "the table is the paper's alone");
 }
