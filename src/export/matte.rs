@@ -42,8 +42,8 @@ pub enum MatteError {
 ///
 /// Tone curve, depth, profile and alpha are those of the photograph, with these exceptions: floats are written linear and
 /// 32 bits wide, samples of less than 8 bits and palettes as 8 bits, and a PNM whose maximum fits no PNG as 16 bits.
-/// At 0 the picture is `intrinsic.body`, at 1 it is the photograph, except for restored pixels, which are then the sum of restored
-/// body and surface reflection, limited to the range of the file.
+/// At 0 the picture is `intrinsic.body`, at 1 it is the photograph. Between them restored pixels have a share of their restored
+/// surface reflection, limited to the range of the file.
 /// A pixel whose color equals the photograph keeps its samples exactly. A gray photograph stays gray if the body is.
 ///
 /// # Errors
@@ -167,11 +167,14 @@ impl Matte<'_> {
         if share <= 0.0 {
             return body;
         }
+        let photo = self.photo.image.pixels[index];
+        if share >= 1.0 {
+            return photo;
+        }
         if matches!(self.intrinsic.kinds[index], PixelKind::Restored | PixelKind::Lost) {
             let surface = self.intrinsic.surface[index];
             return std::array::from_fn(|band| body[band] + share * surface[band]);
         }
-        let photo = self.photo.image.pixels[index];
         std::array::from_fn(|band| (1.0 - share) * body[band] + share * photo[band])
     }
 
@@ -228,7 +231,8 @@ impl Matte<'_> {
             _ => 1.0,
         };
         let color = self.color(index);
-        let unchanged = self.keep_unchanged && color == self.photo.image.pixels[index];
+        let is_photo = self.keep_surface >= 1.0 || color == self.photo.image.pixels[index];
+        let unchanged = self.keep_unchanged && is_photo;
         for band in 0..3 {
             pixel[band] = if unchanged || weight == 0.0 {
                 if source.layout.is_gray() { stored[0] } else { stored[band] }
