@@ -174,7 +174,7 @@ impl Work {
     /// Errors begin with the name of the photograph.
     fn read_and_write(&self, job: &Job) -> Result<PhotoOutcome> {
         // The errors of reading name the file already.
-        let file = RawFile::read(&job.input)?;
+        let file = RawFile::read(&job.input, &self.interrupt)?;
         if !self.options.again && self.is_done(job, file.sha256()) {
             return Ok(PhotoOutcome::Unchanged);
         }

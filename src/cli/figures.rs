@@ -165,7 +165,7 @@ impl Work<'_> {
             return Ok((shot, Some(reference)));
         }
         // The errors of reading name the file already.
-        let shot = RawFile::read(&job.input)?.decode(&self.reading)?;
+        let shot = RawFile::read(&job.input, &self.interrupt)?.decode(&self.reading)?;
         let root = self.arguments.truth.as_deref();
         let reference = root.map(|root| reference(root, job, &self.reading)).transpose();
         Ok((shot, reference.with_context(|| place::name_of(&job.input))?))

@@ -43,10 +43,10 @@ pub(super) struct RawFile {
 }
 
 impl RawFile {
-    /// Reads a file. Errors name the file.
-    pub(super) fn read(path: &Path) -> Result<Self> {
+    /// Reads a file. Errors name the file; the wait for a pipe is one of them where `interrupt` came.
+    pub(super) fn read(path: &Path, interrupt: &Interrupt) -> Result<Self> {
         let begin = Instant::now();
-        let bytes = place::read_bytes(path)?;
+        let bytes = place::read_bytes_until(path, interrupt)?;
         let read_ms = ms_since(begin);
         Ok(Self { sha256: photo::sha256_hex(&bytes), name: place::name_of(path), bytes, read_ms })
     }

@@ -1,15 +1,22 @@
 //! Where a photograph is: a path, a `file:` URI (RFC 8089), or standard input.
 
+use super::interrupt::Interrupt;
 use anyhow::{Result, bail};
 use clap::builder::{OsStringValueParser, TypedValueParser};
 use dichroscope::photo::{self, ReadError};
 use std::ffi::OsString;
 use std::path::{Path, PathBuf};
+use std::sync::mpsc::{self, RecvTimeoutError};
+use std::thread;
+use std::time::Duration;
 
 /// What stands for standard input.
 const STANDARD_INPUT: &str = "-";
 /// Name of a photograph from standard input, in messages and of its result.
 const STANDARD_INPUT_NAME: &str = "stdin";
+
+/// Time between two looks whether the program was asked to end while it waits for a pipe.
+const BETWEEN_LOOKS: Duration = Duration::from_millis(50);
 
 /// Parser of arguments that name a photograph.
 pub(super) fn parser() -> impl TypedValueParser<Value = PathBuf> {
@@ -95,6 +102,26 @@ pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, ReadError> {
         photo::read_stream(std::io::stdin().lock(), STANDARD_INPUT_NAME)
     } else {
         photo::read_bytes(path)
+    }
+}
+
+/// The bytes of a photograph, read once. The wait for another program at the other end of a pipe ends with the signals that end this
+/// program: the thread that waits is left behind.
+pub(super) fn read_bytes_until(path: &Path, interrupt: &Interrupt) -> Result<Vec<u8>> {
+    if !is_standard_input(path) && !path.metadata().is_ok_and(|found| !found.is_file() && !found.is_dir()) {
+        return Ok(read_bytes(path)?);
+    }
+    let (sender, receiver) = mpsc::channel();
+    let waiting = path.to_owned();
+    // Nobody receives where the wait was given up.
+    thread::spawn(move || drop(sender.send(read_bytes(&waiting))));
+    loop {
+        match receiver.recv_timeout(BETWEEN_LOOKS) {
+            Ok(bytes) => return Ok(bytes?),
+            Err(RecvTimeoutError::Timeout) if interrupt.came() => bail!("{}: interrupted", name_of(path)),
+            Err(RecvTimeoutError::Timeout) => {}
+            Err(RecvTimeoutError::Disconnected) => bail!("{}: cannot be read", name_of(path)),
+        }
     }
 }
 

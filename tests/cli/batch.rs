@@ -363,6 +363,34 @@ fn a_killed_run_leaves_whole_results_and_the_next_one_tidies_up() {
     work.succeeds("analyze d --out out --quiet");
     assert_eq!((hidden(&work), work.list("out").len()), (Vec::new(), 13));
 }
+/// The wait for the other end of a named pipe ends with a signal.
+#[cfg(unix)]
+#[test]
+fn a_signal_ends_the_wait_for_a_pipe() {
+    for command in ["analyze", "figures"] {
+        let work = WorkFolder::new();
+        assert!(Command::new("mkfifo").arg(work.path("pipe.png")).status().unwrap().success());
+        let mut program = Command::new(env!("CARGO_BIN_EXE_dichroscope"));
+        program.current_dir(work.path("")).args([command, "pipe.png", "--out", "out"]);
+        let mut process = program.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap();
+        // A signal before the program listens ends it as well, with another code.
+        std::thread::sleep(Duration::from_secs(1));
+        send("-INT", &process);
+        let begin = Instant::now();
+        let status = loop {
+            if let Some(status) = process.try_wait().unwrap() {
+                break status;
+            }
+            if begin.elapsed() > Duration::from_secs(20) {
+                process.kill().unwrap();
+                panic!("{command} still waits after 20 s");
+            }
+            std::thread::sleep(Duration::from_millis(10));
+        };
+        assert_eq!(status.code(), Some(130), "{command}");
+    }
+}
+
 
 /// An earlier result survives a disk that is full, which a limit of the size of files stands for.
 #[cfg(unix)]
