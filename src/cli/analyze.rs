@@ -39,7 +39,7 @@ pub struct Arguments {
     /// Share of the surface reflection that the matte picture keeps: 0 none of it, 1 all
     #[arg(long, value_name = "SHARE", value_parser = share, default_value_t = 0.0)]
     keep_surface: f64,
-    /// Write only these files of each result, separated by commas, as in body.exr,matte,report.json
+    /// Write only these files of each result, separated by commas, as in body,matte,report.json
     #[arg(long, value_name = "NAMES", value_parser = files)]
     files: Option<FileChoice>,
     /// Also write body, surface, noise and residual as arrays of NumPy

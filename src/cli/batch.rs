@@ -200,11 +200,8 @@ impl Work {
     fn is_done(&self, job: &Job, sha256: &str) -> bool {
         let Some(line) = self.lines.as_ref().and_then(|lines| lines.earlier(&job.name)) else { return false };
         let target = self.target(job);
-        let is_there = if self.files.has("report.json") {
-            read_report(&target).is_ok_and(|report| report.image.sha256 == sha256)
-        } else {
-            target.is_dir()
-        };
+        let is_its_report = || read_report(&target).is_ok_and(|report| report.image.sha256 == sha256);
+        let is_there = self.files.is_in(&target) && (!self.files.has("report.json") || is_its_report());
         line.status == Status::Done
             && line.sha256.as_deref() == Some(sha256)
             && line.settings.as_deref() == Some(&self.settings)

@@ -37,7 +37,7 @@ pub fn read_report(folder: &Path) -> Result<Report, ResultError> {
     }
 }
 
-/// Whether `folder` holds a `report.json` of this program, of any schema. Only such a folder is replaced without `--force`.
+/// Whether `folder` holds a `report.json` of this program, of any schema. Such a folder is replaced as a whole.
 pub fn is_result_folder(folder: &Path) -> bool {
     std::fs::read(folder.join(FILE_NAME)).is_ok_and(|text| is_report(&text))
 }

@@ -42,7 +42,7 @@ impl WholeResult<'_> {
         self.write_files(&FileChoice::default(), report, target, force, watch)
     }
 
-    /// As [`WholeResult::write`], only the files of `choice`. A folder without a report is replaced only with `force`.
+    /// As [`WholeResult::write`], only the files of `choice`. Without a report, files of an earlier result without a report stay.
     ///
     /// # Errors
     /// The errors of [`WholeResult::write`].

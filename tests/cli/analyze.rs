@@ -392,6 +392,7 @@ fn the_call_that_the_window_hands_out_writes_the_windows_result() {
     assert_that_the_call_repeats(vec![Edit::PinIlluminant(Some([1.0, 0.75, 0.5]), None), second]);
     let edits = [
         Edit::SetMethod(Method::Paper),
+    work.put("dichroscope-sample/notes.txt", b"mine");
         Edit::SetSwitch(Switch::EdgeBody, true),
         Edit::SetReading(Reading::FillHoles, true),
     ];

@@ -119,8 +119,30 @@ fn only_the_chosen_files_are_written() {
     let header = fs::read(work.path("out/a/body.npy")).unwrap();
     assert!(String::from_utf8_lossy(&header[..128]).contains("'shape': (150, 178, 3)"));
     assert_eq!(header.len(), 128 + 150 * 178 * 12);
-    work.fails(2, "analyze a.png --out out", "is not an earlier result");
     work.fails(2, "analyze a.png --out out --files body.tif", "`body.tif` is no file of a result");
+}
+
+#[test]
+fn parts_of_a_result_are_added_to_and_replaced_without_being_forced() {
+    let work = WorkFolder::new();
+    work.photo("a.png");
+    for _ in 0..2 {
+        work.succeeds("analyze a.png --out out --files matte.png");
+        assert_eq!(work.list("out/a"), ["matte.png"]);
+    }
+    work.succeeds("analyze a.png --out out --files body,regions");
+    assert_eq!(work.list("out/a"), ["body.exr", "body.png", "matte.png", "regions.png"]);
+    work.put("out/a/notes.txt", b"mine");
+    work.fails(2, "analyze a.png --out out --files matte", "is not an earlier result");
+    fs::remove_file(work.path("out/a/notes.txt")).unwrap();
+    work.succeeds("analyze a.png --out out");
+    assert!(work.list("out/a").contains(&"report.json".to_owned()));
+    // In a folder of photographs, a result that lacks a chosen file is made again.
+    work.photo("d/b.png");
+    work.succeeds("analyze d --out many --files matte,noise.png");
+    fs::remove_file(work.path("many/b/matte.png")).unwrap();
+    work.succeeds("analyze d --out many --files matte,noise.png");
+    assert_eq!(work.list("many/b"), ["matte.png", "noise.png"]);
 }
 
 #[test]
@@ -341,28 +363,6 @@ fn a_signal_ends_the_run_without_leftovers_and_says_what_is_done() {
     }
 }
 
-/// Every result is whole after a kill at any moment, and the next run removes what the killed one left.
-#[cfg(unix)]
-#[test]
-fn a_killed_run_leaves_whole_results_and_the_next_one_tidies_up() {
-    let work = many(12);
-    let rounds = if std::env::var_os("DICHROSCOPE_LONG_TESTS").is_some() { 200 } else { 10 };
-    for round in 0..rounds {
-        let mut process = start(&work);
-        std::thread::sleep(Duration::from_millis(40 + (round * 37) % 240));
-        let _ = process.kill();
-        process.wait().unwrap();
-        for name in fs::read_dir(work.path("out")).into_iter().flatten().map(|entry| entry.unwrap()) {
-            let name = name.file_name().into_string().unwrap();
-            if !name.starts_with('.') && !name.contains(".jsonl") {
-                assert_eq!(work.list(&format!("out/{name}")).len(), 16, "{name}");
-                work.report(&format!("out/{name}"));
-            }
-        }
-    }
-    work.succeeds("analyze d --out out --quiet");
-    assert_eq!((hidden(&work), work.list("out").len()), (Vec::new(), 13));
-}
 /// The wait for the other end of a named pipe ends with a signal.
 #[cfg(unix)]
 #[test]
@@ -391,6 +391,28 @@ fn a_signal_ends_the_wait_for_a_pipe() {
     }
 }
 
+/// Every result is whole after a kill at any moment, and the next run removes what the killed one left.
+#[cfg(unix)]
+#[test]
+fn a_killed_run_leaves_whole_results_and_the_next_one_tidies_up() {
+    let work = many(12);
+    let rounds = if std::env::var_os("DICHROSCOPE_LONG_TESTS").is_some() { 200 } else { 10 };
+    for round in 0..rounds {
+        let mut process = start(&work);
+        std::thread::sleep(Duration::from_millis(40 + (round * 37) % 240));
+        let _ = process.kill();
+        process.wait().unwrap();
+        for name in fs::read_dir(work.path("out")).into_iter().flatten().map(|entry| entry.unwrap()) {
+            let name = name.file_name().into_string().unwrap();
+            if !name.starts_with('.') && !name.contains(".jsonl") {
+                assert_eq!(work.list(&format!("out/{name}")).len(), 16, "{name}");
+                work.report(&format!("out/{name}"));
+            }
+        }
+    }
+    work.succeeds("analyze d --out out --quiet");
+    assert_eq!((hidden(&work), work.list("out").len()), (Vec::new(), 13));
+}
 
 /// An earlier result survives a disk that is full, which a limit of the size of files stands for.
 #[cfg(unix)]
