@@ -10,7 +10,7 @@ fn main() -> ExitCode {
         Err(ended) => return ended,
     };
     cli::start_log();
-    if let Err(error) = cli::expect_a_file_to_show(&arguments) {
+    if let Err(error) = cli::expect_files_to_show(&arguments) {
         cli::note(&format!("error: {error}"));
         return ExitCode::from(2);
     }
@@ -19,7 +19,7 @@ fn main() -> ExitCode {
         None => {
             let (labels, diffuse) = (arguments.labels, arguments.diffuse);
             let elsewhere = dichroscope::view::ElsewherePaths { labels, diffuse };
-            return ended(dichroscope::gui::open(arguments.image, elsewhere));
+            return ended(dichroscope::gui::open(arguments.images, elsewhere));
         }
         Some(cli::Command::Screenshot(wish)) => return screenshot(wish),
         Some(_) => {}

@@ -1,6 +1,7 @@
 //! The commands of a person. A [`Command`] is the only way in which panels change a [`super::State`]; the reports of workers are
 //! a type of their own, which no panel can make.
 
+use super::photographs::MOST_OTHERS;
 use super::{DebugCommand, Export, Gesture, Question, Severity, Switching};
 use crate::params::{AmbientSetting, Method, Parameter, Params, Reading, Setting, Switch};
 use crate::photo::ReadOptions;
@@ -162,12 +163,15 @@ pub enum JobCommand {
 impl JobCommand {
     /// Opens the scenes of a set of samples together. The first is shown, and the others follow it in their order.
     pub fn open_samples(set: &SampleSet) -> Self {
-        let mut scenes: Vec<Origin> =
-            set.scenes.iter().map(|&name| Origin::Sample(name.to_owned())).collect();
-        let first = 1.min(scenes.len());
-        // The last file that is opened is shown.
-        scenes.rotate_left(first);
-        Self::OpenFiles(scenes)
+        Self::open_first_shown(set.scenes.iter().map(|&name| Origin::Sample(name.to_owned())).collect())
+    }
+
+    /// Opens several files together. The first photograph is shown, and the others follow it in their order.
+    pub fn open_first_shown(mut files: Vec<Origin>) -> Self {
+        // The last photograph that can be open is shown.
+        let opened = files.len().min(MOST_OTHERS + 1);
+        files[..opened].rotate_left(1.min(opened));
+        Self::OpenFiles(files)
     }
 }
 

@@ -28,7 +28,7 @@ use clap::{Parser, Subcommand};
 use dichroscope::truth::sample::SAMPLES;
 use std::io::{self, Write};
 use std::num::NonZeroUsize;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use tracing_subscriber::EnvFilter;
 
@@ -39,9 +39,9 @@ use tracing_subscriber::EnvFilter;
 #[derive(Debug, Parser)]
 #[command(name = "dichroscope", version, args_conflicts_with_subcommands = true)]
 pub struct Arguments {
-    /// Photograph to open in the window; none: a sample scene
-    #[arg(value_parser = place::parser())]
-    pub image: Option<PathBuf>,
+    /// Photographs or workspace to open in the window, the first of them shown; none: a sample scene
+    #[arg(value_name = "IMAGE", value_parser = place::parser())]
+    pub images: Vec<PathBuf>,
     /// Label map of another program, to hold against the result in the window
     #[arg(long, value_name = "FILE")]
     pub labels: Option<PathBuf>,
@@ -112,17 +112,17 @@ pub fn start_log() {
 
 /// Parses the arguments and runs the command that they name.
 pub fn run(arguments: Arguments) -> ExitCode {
-    let result = match (arguments.command, arguments.image) {
-        (Some(Command::Analyze(arguments)), _) => analyze::run(&arguments),
-        (Some(Command::Evaluate(arguments)), _) => evaluate::run(&arguments),
-        (Some(Command::Figures(arguments)), _) => figures::run(&arguments),
-        (Some(Command::Compare(arguments)), _) => compare::run(&arguments),
-        (Some(Command::Trace(arguments)), _) => trace::run(&arguments),
-        (Some(Command::Why(arguments)), _) => why::run(&arguments),
-        (Some(Command::Screenshot(_)), _) => no_screenshot(),
-        (None, _) if arguments.labels.is_some() || arguments.diffuse.is_some() => no_window_for_elsewhere(),
-        (None, None) => sample::run(),
-        (None, Some(image)) => no_window(&image),
+    let result = match arguments.command {
+        Some(Command::Analyze(arguments)) => analyze::run(&arguments),
+        Some(Command::Evaluate(arguments)) => evaluate::run(&arguments),
+        Some(Command::Figures(arguments)) => figures::run(&arguments),
+        Some(Command::Compare(arguments)) => compare::run(&arguments),
+        Some(Command::Trace(arguments)) => trace::run(&arguments),
+        Some(Command::Why(arguments)) => why::run(&arguments),
+        Some(Command::Screenshot(_)) => no_screenshot(),
+        None if arguments.labels.is_some() || arguments.diffuse.is_some() => no_window_for_elsewhere(),
+        None if arguments.images.is_empty() => sample::run(),
+        None => no_window(&arguments.images),
     };
     match result {
         Ok(outcome) => end_of(outcome),
@@ -136,26 +136,40 @@ pub fn run(arguments: Arguments) -> ExitCode {
 /// Fails where the window, or pictures of it, are to show standard input: they read a file again when its encoding is changed.
 ///
 /// # Errors
-/// The command to use instead.
-pub fn expect_a_file_to_show(arguments: &Arguments) -> Result<()> {
-    let image = match &arguments.command {
-        None => arguments.image.as_deref(),
-        Some(Command::Screenshot(arguments)) => arguments.image.as_deref(),
-        Some(_) => None,
+/// What to do instead.
+pub fn expect_files_to_show(arguments: &Arguments) -> Result<()> {
+    let images: Vec<&Path> = match &arguments.command {
+        None => arguments.images.iter().map(PathBuf::as_path).collect(),
+        Some(Command::Screenshot(arguments)) => arguments.image.iter().map(PathBuf::as_path).collect(),
+        Some(_) => Vec::new(),
     };
-    if image.is_some_and(place::is_standard_input) {
+    if images.iter().any(|image| place::is_standard_input(image)) {
         bail!(
             "the window cannot show standard input: save the photograph to a file; `analyze`, `trace` and `why` read it"
         );
     }
     Ok(())
+    let is_unknown = |image: &&&Path| arguments.command.is_none() && is_bare_word(image) && !image.exists();
+    if let Some(word) = images.iter().find(is_unknown) {
+        bail!("{}: there is no such file and no such command; --help lists the commands", word.display());
+    }
+    if images.len() > 1 && (arguments.labels.is_some() || arguments.diffuse.is_some()) {
+        bail!(
+            "--labels and --diffuse belong to one photograph: name that one alone, and open the others in the window"
+        );
+    }
 }
 
-fn no_window(image: &std::path::Path) -> Result<Outcome> {
-    let image = image.display();
-    bail!(
-        "this program has no window built in: `dichroscope analyze {image} --out DIR` analyses the photograph"
-    )
+/// Whether a path is one name without an extension, as that of a command is.
+fn is_bare_word(path: &Path) -> bool {
+    path.extension().is_none() && path.components().count() == 1
+}
+
+fn no_window(images: &[PathBuf]) -> Result<Outcome> {
+    let images: Vec<String> = images.iter().map(|image| image.display().to_string()).collect();
+    let (images, what) =
+        (images.join(" "), if images.len() == 1 { "the photograph" } else { "the photographs" });
+    bail!("this program has no window built in: `dichroscope analyze {images} --out DIR` analyses {what}")
 }
 
 fn no_window_for_elsewhere() -> Result<Outcome> {

@@ -14,16 +14,16 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[error("no window can be opened here ({0}); `dichroscope analyze PHOTO --out DIR` needs none")]
 pub struct WindowError(String);
 
-/// Opens the window on `file` (a photograph or a workspace), or on the sample scene, and returns when it is closed. `elsewhere` holds
-/// pictures that another program made of the photograph; a workspace has its own.
+/// Opens the window on `files` (photographs, of which the first is shown, or a workspace), or on the sample scene, and returns when it
+/// is closed. `elsewhere` holds pictures that another program made of the only photograph; a workspace has its own.
 ///
 /// When the graphics device is lost (a driver restarts, a card is unplugged), the window closes, and another window
 /// with a new device opens with the same application in it. The same happens after a panic outside of the panels.
 ///
 /// # Errors
 /// When there is no display or no graphics adapter, and when panics repeat.
-pub fn open(file: Option<PathBuf>, elsewhere: ElsewherePaths) -> Result<(), WindowError> {
-    let mut first_job = Some(first_job(file, elsewhere));
+pub fn open(files: Vec<PathBuf>, elsewhere: ElsewherePaths) -> Result<(), WindowError> {
+    let mut first_job = Some(first_job(files, elsewhere));
     let handover: Handover = Arc::default();
     let mut panics = 0;
     loop {
@@ -60,12 +60,15 @@ pub fn open(file: Option<PathBuf>, elsewhere: ElsewherePaths) -> Result<(), Wind
     }
 }
 
-/// The first job of the window: opens a workspace, a photograph, or the sample scene where no file is given.
-fn first_job(file: Option<PathBuf>, elsewhere: ElsewherePaths) -> JobCommand {
-    match file {
-        Some(path) if is_workspace(&path) => JobCommand::OpenWorkspace(path),
-        Some(path) => JobCommand::OpenBeside(Origin::File(path), elsewhere),
-        None => JobCommand::OpenBeside(Origin::Sample(sample::NAME.to_owned()), elsewhere),
+/// The first job of the window: opens a workspace, photographs, or the sample scene where no file is given.
+fn first_job(files: Vec<PathBuf>, elsewhere: ElsewherePaths) -> JobCommand {
+    match <[PathBuf; 1]>::try_from(files) {
+        Ok([path]) if is_workspace(&path) => JobCommand::OpenWorkspace(path),
+        Ok([path]) => JobCommand::OpenBeside(Origin::File(path), elsewhere),
+        Err(none) if none.is_empty() => {
+            JobCommand::OpenBeside(Origin::Sample(sample::NAME.to_owned()), elsewhere)
+        }
+        Err(several) => JobCommand::open_first_shown(several.into_iter().map(Origin::File).collect()),
     }
 }
 
@@ -258,10 +261,14 @@ mod tests {
 
     #[test]
     fn a_workspace_is_opened_as_a_workspace_and_anything_else_as_a_photograph() {
-        let first_job = |file: Option<&str>| first_job(file.map(PathBuf::from), ElsewherePaths::default());
-        assert!(matches!(first_job(Some("a.dichroscope")), JobCommand::OpenWorkspace(_)));
-        assert!(matches!(first_job(Some("a.png")), JobCommand::OpenBeside(Origin::File(_), _)));
-        assert!(matches!(first_job(None), JobCommand::OpenBeside(Origin::Sample(_), _)));
+        let first_job =
+            |files: &[&str]| first_job(files.iter().map(PathBuf::from).collect(), ElsewherePaths::default());
+        assert!(matches!(first_job(&["a.dichroscope"]), JobCommand::OpenWorkspace(_)));
+        assert!(matches!(first_job(&["a.png"]), JobCommand::OpenBeside(Origin::File(_), _)));
+        assert!(matches!(first_job(&[]), JobCommand::OpenBeside(Origin::Sample(_), _)));
+        let JobCommand::OpenFiles(files) = first_job(&["a.png", "b.png", "c.png"]) else { panic!() };
+        let names: Vec<String> = files.iter().map(Origin::name).collect();
+        assert_eq!(names, ["b.png", "c.png", "a.png"], "the last file is shown");
     }
 
     #[test]

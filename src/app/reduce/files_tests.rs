@@ -48,6 +48,18 @@ fn tells(state: &State, words: &str) -> bool {
 }
 
 #[test]
+fn of_more_photographs_than_can_be_open_the_first_is_shown_too() {
+    let names: Vec<String> = (1..=11).map(|number| format!("{number}.png")).collect();
+    let origins = names.iter().map(|name| Origin::File(name.into())).collect();
+    let mut state = State::default();
+    let effects = reduce(&mut state, JobCommand::open_first_shown(origins));
+    let [Effect::ReadTogether(files)] = effects.as_slice() else { panic!("{effects:?}") };
+    let opened: Vec<String> = files.photographs.iter().map(Origin::name).collect();
+    assert_eq!((opened.len(), opened[7].as_str()), (8, "1.png"), "the last is shown");
+    assert!(state.notices.iter().any(|notice| notice.text.starts_with("3 photographs (from 9.png on)")));
+}
+
+#[test]
 fn every_photograph_is_opened_in_order_and_the_pictures_of_another_program_belong_to_the_last() {
     let folder = folder();
     let path = |name: &str| folder.path().join(name);
