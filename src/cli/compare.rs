@@ -11,7 +11,9 @@ use dichroscope::export::{
 };
 use dichroscope::photo;
 use dichroscope::truth::sample::CAMERA_FILE;
-use dichroscope::truth::{self, Agreement, ForeignResult, ResultPictures, read_label_map, score};
+use dichroscope::truth::{
+    self, Agreement, ForeignResult, ResultPictures, doubt_about_truth, read_label_map, score,
+};
 use std::path::{Path, PathBuf};
 
 /// Hold a label map or a diffuse picture that was made elsewhere against a result, and against the ground truth
@@ -83,6 +85,9 @@ fn both_scores(
     let outcome =
         truth::Outcome { regions: &result.regions, body: &result.body, surface: &result.surface, report };
     Ok([foreign.scores(&truth, &camera, report)?, score(&truth, &camera, &outcome)?])
+    if let Some(doubt) = doubt_about_truth(&truth, &result.sum()) {
+        note(&format!("warning: {doubt}"));
+    }
 }
 
 fn write(folder: &Path, foreign: &ForeignResult, result: &ResultPictures) -> Result<()> {

@@ -9,7 +9,7 @@ use dichroscope::describe::{Report, Scores};
 use dichroscope::export::{is_result_folder, read_report};
 use dichroscope::photo::{self, ReadOptions};
 use dichroscope::truth::sample::CAMERA_FILE;
-use dichroscope::truth::{self, CandidateCounts, ResultPictures, find_truth, score};
+use dichroscope::truth::{self, CandidateCounts, ResultPictures, doubt_about_truth, find_truth, score};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use walkdir::WalkDir;
@@ -107,7 +107,11 @@ fn evaluate(arguments: &Arguments, name: &Path, folder: &Path) -> Result<(Scores
         None => &report.image.file,
     };
     let Reference { truth, camera } = Reference::read(&truth_folder, image, &ReadOptions::default())?;
-    let ResultPictures { regions, body, surface } = ResultPictures::read(folder)?;
+    let pictures = ResultPictures::read(folder)?;
+    if let Some(doubt) = doubt_about_truth(&truth, &pictures.sum()) {
+        note(&format!("{}: warning: {doubt}", folder.display()));
+    }
+    let ResultPictures { regions, body, surface } = pictures;
     let outcome = truth::Outcome { regions: &regions, body: &body, surface: &surface, report: &report };
     let scores = score(&truth, &camera, &outcome)?;
     if !arguments.candidates {

@@ -11,6 +11,7 @@ mod label_map;
 mod measures;
 mod pictures;
 mod report;
+mod resemblance;
 pub mod sample;
 mod score;
 
@@ -22,6 +23,7 @@ pub use label_map::read_label_map;
 pub use measures::{adjusted_rand_index, angle_deg, psnr_db};
 pub use pictures::ResultPictures;
 pub use report::{Reference, ReportInput, report};
+pub use resemblance::doubt_about_truth;
 pub use score::{Outcome, ScoreError, score};
 
 use std::path::PathBuf;

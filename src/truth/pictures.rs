@@ -35,6 +35,14 @@ impl ResultPictures {
         };
         Ok(Self { body: picture("body.exr")?, surface: picture("surface.exr")?, regions })
     }
+
+    /// Body and surface reflection together: the photograph that was analyzed, but for noise and clipped pixels.
+    pub fn sum(&self) -> Raster<[f32; 3]> {
+        let pairs = self.body.as_slice().iter().zip(self.surface.as_slice());
+        let sums = pairs.map(|(body, surface)| std::array::from_fn(|band| body[band] + surface[band]));
+        Raster::from_vec(self.body.width(), self.body.height(), sums.collect())
+            .expect("invariant: a sum for each pixel of the body image")
+    }
 }
 
 /// The bytes of a file.

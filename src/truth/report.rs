@@ -1,5 +1,6 @@
 //! The report of an analysis, with the scores against a ground truth.
 
+use super::resemblance::doubt_about_truth;
 use super::{GroundTruth, Outcome, ScoreError, score};
 use crate::analysis::Analysis;
 use crate::describe::{AreaFacts, ImageFacts, Report, Timings};
@@ -34,7 +35,7 @@ pub struct Reference<'a> {
     pub camera: &'a Raster<[f32; 3]>,
 }
 
-/// The report of an analysis, for `report.json`.
+/// The report of an analysis, for `report.json`. A reference that is hardly that of the photograph is a warning.
 ///
 /// # Errors
 /// As [`score()`], where there is a reference.
@@ -52,6 +53,7 @@ pub fn report(input: ReportInput) -> Result<Report, ScoreError> {
             report: &report,
         };
         report.scores = Some(score(truth, camera, &outcome)?);
+        report.warnings.extend(doubt_about_truth(truth, &photo.image.pixels));
     }
     Ok(report)
 }

@@ -284,6 +284,24 @@ fn truth_is_found_by_the_results_name_or_the_folders() {
 }
 
 #[test]
+fn a_truth_of_another_picture_is_warned_of_and_scored() {
+    let work = WorkFolder::new();
+    let mirrored = image::open(tiny().join("camera8.png")).unwrap().fliph();
+    mirrored.save(work.path("other.png")).unwrap();
+    work.photo("own.png");
+    let doubt = "the ground truth is hardly that of this photograph";
+    for (name, is_doubted) in [("own", false), ("other", true)] {
+        work.succeeds(&format!("analyze {name}.png --encoding linear --out out --truth TINY"));
+        let report = work.report(&format!("out/{name}"));
+        assert!(report.scores.is_some());
+        assert_eq!(report.warnings.iter().any(|text| text.starts_with(doubt)), is_doubted, "{name}");
+        let ended = work.succeeds(&format!("evaluate out/{name} --truth TINY"));
+        assert_eq!(ended.err.contains(doubt), is_doubted, "{name}: {}", ended.err);
+        assert!(ended.out.contains(name));
+    }
+}
+
+#[test]
 fn evaluate_prints_a_table_or_json() {
     let work = WorkFolder::new();
     work.photo("second.png");
@@ -374,6 +392,7 @@ fn without_arguments_the_sample_is_analyzed() {
     assert!(work.report("dichroscope-sample").scores.is_some());
     work.succeeds("");
     fs::remove_file(work.path("dichroscope-sample/report.json")).unwrap();
+    work.put("dichroscope-sample/notes.txt", b"mine");
     work.fails(2, "", "run this in another folder");
 }
 
@@ -392,7 +411,6 @@ fn the_call_that_the_window_hands_out_writes_the_windows_result() {
     assert_that_the_call_repeats(vec![Edit::PinIlluminant(Some([1.0, 0.75, 0.5]), None), second]);
     let edits = [
         Edit::SetMethod(Method::Paper),
-    work.put("dichroscope-sample/notes.txt", b"mine");
         Edit::SetSwitch(Switch::EdgeBody, true),
         Edit::SetReading(Reading::FillHoles, true),
     ];
