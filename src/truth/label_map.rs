@@ -3,6 +3,7 @@
 use super::TruthError;
 use super::pictures::{decode_labels, read_file};
 use crate::raster::{LabelMap, Raster, UNASSIGNED};
+use image::DynamicImage;
 use std::collections::BTreeMap;
 use std::path::Path;
 
@@ -25,6 +26,12 @@ pub fn read_label_map(path: &Path) -> Result<LabelMap, TruthError> {
     }
     let picture = image::load_from_memory(&bytes)
         .map_err(|source| TruthError::Labels { path: path.to_owned(), source })?;
+    if let DynamicImage::ImageRgb32F(_) | DynamicImage::ImageRgba32F(_) = picture {
+        return Err(TruthError::LabelType {
+            path: path.to_owned(),
+            found: "floating-point numbers".to_owned(),
+        });
+    }
     let is_gray = !picture.color().has_color();
     let colors = picture.to_rgb8();
     let (labels, palette) = if is_gray || colors.pixels().all(|color| is_gray_color(color.0)) {
@@ -137,6 +144,13 @@ mod tests {
         assert!(error.contains("smoothed borders") && error.contains("PNG"), "{error}");
         let error = saved("labels.jpg", &disks(false).into()).unwrap_err().to_string();
         assert!(error.contains("is a JPEG"), "{error}");
+    }
+
+    #[test]
+    fn a_picture_of_floats_is_no_label_map() {
+        let picture = image::Rgb32FImage::from_pixel(4, 3, Rgb([1.0, 0.5, 0.0]));
+        let error = saved("labels.exr", &picture.into()).unwrap_err().to_string();
+        assert!(error.contains("holds floating-point numbers: expected labels as 8- or 16-bit"), "{error}");
     }
 
     #[test]

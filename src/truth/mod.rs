@@ -57,7 +57,7 @@ pub enum TruthError {
         source: image::ImageError,
     },
     /// The samples of a label picture are not 8- or 16-bit integers.
-    #[error("{} holds {found}: expected labels as 8- or 16-bit integers", path.display())]
+    #[error("{} holds {found}: expected labels as 8- or 16-bit integers, as in a PNG: gray, or one color for each label", path.display())]
     LabelType {
         /// The file.
         path: PathBuf,
