@@ -7,14 +7,18 @@ use rayon::prelude::*;
 /// Pixels of one parallel task: enough that the cost of starting a task does not matter.
 const PIXELS_PER_TASK: usize = 1 << 14;
 
+/// Largest value of a pixel, counts: four billion times full scale, brighter than the sun in a photograph of a room. The squares
+/// and sums of larger values would not be finite.
+pub const LARGEST_COUNTS: f32 = 1e12;
+
 /// A photograph in linear light: three bands in counts, 255 = full scale, whatever the sample depth of the file.
 ///
-/// A pixel with a non-finite or negative value in the file is black here and true in `invalid`.
+/// A pixel with a value in the file that is not finite, negative or above [`LARGEST_COUNTS`] is black here and true in `invalid`.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LinearImage {
     /// R, G and B in linear counts.
     pub pixels: Raster<[f32; 3]>,
-    /// Pixels with a non-finite or negative value in the file.
+    /// Pixels with a value in the file that is not finite, negative or above [`LARGEST_COUNTS`].
     pub invalid: Mask,
     /// Counts at which the file saturates: the largest value of an integer format, or the largest value of floats where many are equal to it; else
     /// `None`.
@@ -24,12 +28,13 @@ pub struct LinearImage {
 }
 
 impl LinearImage {
-    /// Takes decoded linear counts. Pixels with a non-finite or negative value become black and invalid.
+    /// Takes decoded linear counts. Pixels with a value that is not finite, negative or above [`LARGEST_COUNTS`] become black and
+    /// invalid.
     pub fn new(mut pixels: Raster<[f32; 3]>, saturation: Option<f32>) -> Self {
         let mut invalid = Mask::filled(pixels.width(), pixels.height(), false);
         let both = pixels.as_mut_slice().par_iter_mut().zip(invalid.as_mut_slice());
         both.with_min_len(PIXELS_PER_TASK).for_each(|(pixel, invalid)| {
-            if pixel.iter().any(|v| !v.is_finite() || *v < 0.0) {
+            if pixel.iter().any(|v| !(0.0..=LARGEST_COUNTS).contains(v)) {
                 (*pixel, *invalid) = ([0.0; 3], true);
             }
         });
@@ -74,10 +79,10 @@ mod tests {
     fn values_that_are_no_light_are_masked() {
         let bad = [f32::NAN, f32::INFINITY, f32::NEG_INFINITY, -1e-9];
         let mut counts: Vec<[f32; 3]> = bad.iter().map(|&v| [1.0, v, 2.0]).collect();
-        counts.extend([[0.0, 1.0, 1e30], [-0.0; 3]]);
-        let image = LinearImage::new(Raster::from_vec(3, 2, counts).unwrap(), None);
-        assert_eq!(image.invalid.as_slice(), [true, true, true, true, false, false]);
-        assert_eq!(image.pixels[0], [0.0; 3]);
-        assert_eq!(image.pixels[4], [0.0, 1.0, 1e30]);
+        counts.extend([[0.0, 1.0, 1e30], [-0.0; 3], [0.0, 1.0, LARGEST_COUNTS]]);
+        let image = LinearImage::new(Raster::from_vec(7, 1, counts).unwrap(), None);
+        assert_eq!(image.invalid.as_slice(), [true, true, true, true, true, false, false]);
+        assert_eq!([image.pixels[0], image.pixels[4]], [[0.0; 3]; 2]);
+        assert_eq!(image.pixels[6], [0.0, 1.0, LARGEST_COUNTS]);
     }
 }

@@ -31,7 +31,7 @@ pub use digest::sha256_hex;
 pub use encoding::{Encoding, EncodingChoice, InvalidEncoding};
 pub use error::ReadError;
 pub use format::Format;
-pub use linear::LinearImage;
+pub use linear::{LARGEST_COUNTS, LinearImage};
 pub use masks::{MaskLimits, Masks};
 pub use noise::{NoiseEstimate, ShotNoise};
 pub use noise_correlation::NoiseCorrelation;
@@ -169,8 +169,16 @@ pub fn decode(bytes: &[u8], name_hint: &str, options: &ReadOptions) -> Result<Ph
     }
     let coding =
         source.max.and_then(|max| CodingError::of_samples(compression, max, &encoding.curves[1], full_scale));
+    let (huge, largest) = huge_values(&pixels);
+    if huge > 0 {
+        warnings.push(format!(
+            "{huge} of {} pixels have values up to {:.1e} times full scale, which no light has: they are left out",
+            pixels.len(),
+            f64::from(largest) / full_scale
+        ));
+    }
     let image = LinearImage::new(pixels, saturation).with_coding(coding);
-    warnings.extend(pixel_warnings(&source, &image));
+    warnings.extend(pixel_warnings(&source, &image, huge));
     Ok(Photo { name: name_hint.to_owned(), image, source, encoding, full_scale, warnings })
 }
 
@@ -217,7 +225,18 @@ fn identify(bytes: &[u8], name: &str) -> Result<Format, ReadError> {
     Format::of_content(bytes).map_err(|found| ReadError::UnknownFormat { file, found })
 }
 
-fn pixel_warnings(source: &Source, image: &LinearImage) -> Vec<String> {
+/// Number of pixels with a finite value above [`LARGEST_COUNTS`], and the largest value, counts.
+fn huge_values(pixels: &Raster<[f32; 3]>) -> (usize, f32) {
+    let huge = |pixel: &[f32; 3]| {
+        let values = pixel.iter().copied().filter(|value| value.is_finite() && *value > LARGEST_COUNTS);
+        values.reduce(f32::max)
+    };
+    let largest = pixels.as_slice().iter().filter_map(huge);
+    largest.fold((0, 0.0), |(pixel_count, most), value| (pixel_count + 1, most.max(value)))
+}
+
+/// The warnings about pixels that are not used as they are. `huge`: number of those with too large values, which have a warning.
+fn pixel_warnings(source: &Source, image: &LinearImage, huge: usize) -> Vec<String> {
     let mut warnings = Vec::new();
     let pixels = image.pixels.len();
     let aspect = source.density.map_or(1.0, |density| density.pixel_aspect());
@@ -232,7 +251,7 @@ fn pixel_warnings(source: &Source, image: &LinearImage) -> Vec<String> {
             "{transparent} of {pixels} pixels are not fully opaque: the picture was composited on black"
         ));
     }
-    let invalid = image.invalid.count();
+    let invalid = image.invalid.count().saturating_sub(huge);
     if invalid > 0 {
         warnings.push(format!(
             "{invalid} of {pixels} pixels have values that are negative or not finite: they are left out"

@@ -4,6 +4,7 @@
 //! where many values are equal to it, and more than lie in the range below it: in a picture that does not clip, few
 //! pixels are as bright as the brightest.
 
+use super::linear::LARGEST_COUNTS;
 use crate::raster::Raster;
 use rayon::prelude::*;
 
@@ -15,12 +16,11 @@ const MOST_SHARE: f64 = 0.5;
 const RANGE_BELOW: f32 = 0.98;
 
 /// The value at which the bands of the picture clip, in the unit of its values; none where the picture does not clip.
-/// Values that are not finite do not count.
+/// Values that are not finite or above [`LARGEST_COUNTS`] do not count.
 pub fn clipping_value(pixels: &Raster<[f32; 3]>) -> Option<f32> {
     let rows = || pixels.as_slice().par_chunks(pixels.width().max(1));
     let largest_of = |row: &[[f32; 3]]| {
-        let finite = row.as_flattened().iter().copied().filter(|value| value.is_finite());
-        finite.fold(0.0, f32::max)
+        row.as_flattened().iter().copied().filter(|&value| value <= LARGEST_COUNTS).fold(0.0, f32::max)
     };
     let largest = rows().map(largest_of).reduce(|| 0.0, f32::max);
     if largest <= 0.0 {
@@ -29,7 +29,7 @@ pub fn clipping_value(pixels: &Raster<[f32; 3]>) -> Option<f32> {
     let count = |row: &[[f32; 3]]| {
         let values = row.as_flattened().iter();
         values.fold([0usize; 2], |[equal, below], &value| {
-            let is_equal = value >= largest && value.is_finite();
+            let is_equal = value >= largest && value <= LARGEST_COUNTS;
             let is_below = value < largest && value >= RANGE_BELOW * largest;
             [equal + usize::from(is_equal), below + usize::from(is_below)]
         })
@@ -73,6 +73,7 @@ mod tests {
         assert_eq!(clipping_value(&Raster::default()), None);
         let mut pixels = picture(1.0);
         pixels[0] = [f32::INFINITY; 3];
+        pixels[1] = [1e30; 3];
         assert_eq!(clipping_value(&pixels), Some(1.0));
     }
 }

@@ -208,6 +208,18 @@ fn floats_are_linear_and_know_no_saturation() {
     let message = decode(&exr, "d.exr", &default).unwrap_err().to_string();
     assert!(message.contains("the channels depth"), "{message}");
 
+    let (red, green) = (float([1e30, 1.0]), float([1.0, f32::INFINITY]));
+    let exr = files::exr((2, 1), &[("R", red), ("G", green), ("B", float([0.5, 1.0]))]);
+    let photo = read_with(&exr, &default);
+    assert_eq!(photo.image.invalid.as_slice(), [true, true]);
+    assert_eq!(
+        photo.warnings,
+        [
+            "1 of 2 pixels have values up to 1.0e30 times full scale, which no light has: they are left out",
+            "1 of 2 pixels have values that are negative or not finite: they are left out",
+        ]
+    );
+
     let photo = read_with(&files::hdr((2, 1), &[[1.0, 0.5, 0.0], [16.0, 2.0, 0.0]]), &default);
     assert_eq!(pixels(&photo), [[255.0, 127.5, 0.0], [16.0 * 255.0, 510.0, 0.0]]);
     let rgbe = b"#?RGBE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1 +X 1\n\x80\x40\x00\x81";
