@@ -40,7 +40,7 @@ pub struct Arguments {
     #[arg(long, value_name = "Y")]
     row: Option<usize>,
     /// A white or gray patch to measure the light on: column and row of its first pixel, columns and rows
-    #[arg(long, value_name = "X,Y,W,H", value_parser = patch)]
+    #[arg(long, value_name = "X,Y,W,H", value_parser = patch, allow_hyphen_values = true)]
     white: Option<[usize; 4]>,
     /// Text that is printed at the end of the pages, as a date
     #[arg(long, value_name = "TEXT")]

@@ -83,7 +83,18 @@ pub enum SceneError {
         /// Rows of the photograph.
         rows: usize,
     },
-    /// The patch reaches beyond the photograph, or has no usable pixel.
+    /// The patch reaches beyond the photograph.
+    #[error("the white patch of {} \u{d7} {} pixels at ({}, {}) reaches beyond the photograph, which has {} columns and {} rows",
+        size[0], size[1], corner[0], corner[1], photograph.0, photograph.1)]
+    PatchOutside {
+        /// Column and row of the patch's first pixel.
+        corner: [usize; 2],
+        /// Columns and rows of the patch.
+        size: [usize; 2],
+        /// Columns and rows of the photograph.
+        photograph: (usize, usize),
+    },
+    /// The patch has no usable pixel.
     #[error("the white patch at ({0}, {1}) holds no pixel that is neither dark nor clipped")]
     Patch(usize, usize),
     /// The other segmentation has another size than the photograph.
@@ -174,13 +185,17 @@ impl Scene {
     /// nor clipped. `corner` is the column and row of the patch's first pixel, `size` its columns and rows.
     ///
     /// # Errors
-    /// [`SceneError::Patch`] for a patch without such a pixel.
+    /// [`SceneError::PatchOutside`] for a patch that is not wholly in the photograph, [`SceneError::Patch`] for one without such a pixel.
     pub fn with_white_patch(mut self, corner: [usize; 2], size: [usize; 2]) -> Result<Self, SceneError> {
         let (width, height) = self.shown.picture.size();
         let [x, y] = corner;
+        let (right, bottom) = (x.saturating_add(size[0]), y.saturating_add(size[1]));
+        if right > width || bottom > height {
+            return Err(SceneError::PatchOutside { corner, size, photograph: (width, height) });
+        }
         let mut sum = [0f64; 3];
-        for row in y..y.saturating_add(size[1]).min(height) {
-            for column in x..x.saturating_add(size[0]).min(width) {
+        for row in y..bottom {
+            for column in x..right {
                 let pixel = row * width + column;
                 if self.shown.analysis.masks.usable(pixel) {
                     let color = self.shown.picture.photo.image.pixels[pixel];

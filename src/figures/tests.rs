@@ -149,8 +149,13 @@ fn a_row_and_a_white_patch_are_inside_of_the_photograph() {
     let scene = || plain(30, 20, [90, 60, 30]);
     let error = scene().with_row(20).err().unwrap();
     assert_eq!(error.to_string(), "there is no row 20: the photograph has 20 rows, counted from 0");
-    assert_eq!(scene().with_white_patch([30, 0], [5, 5]).err(), Some(SceneError::Patch(30, 0)));
-    let html = page(&scene().with_white_patch([25, 5], [10, 3]).unwrap().with_row(3).unwrap(), None);
+    for (corner, size) in [([30, 0], [5, 5]), ([25, 5], [6, 3]), ([0, usize::MAX], [1, 1])] {
+        let error = SceneError::PatchOutside { corner, size, photograph: (30, 20) };
+        assert_eq!(scene().with_white_patch(corner, size).err(), Some(error));
+    }
+    let error = plain(30, 20, [0; 3]).with_white_patch([0, 0], [5, 5]).err();
+    assert_eq!(error, Some(SceneError::Patch(0, 0)));
+    let html = page(&scene().with_white_patch([25, 5], [5, 3]).unwrap().with_row(3).unwrap(), None);
     assert!(html.contains("(0.80,\u{a0}0.53,\u{a0}0.27)"), "the direction of (90, 60, 30)");
 }
 

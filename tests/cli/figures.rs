@@ -74,7 +74,7 @@ fn a_wrong_call_is_found_out_before_any_work() {
     work.fails(2, "figures cup.png --out pages --truth nowhere", "no such folder");
     work.fails(2, "figures cup.png --out cup.png", "is a file");
     work.fails(1, "figures cup.png --out pages --row 9999", "there is no row 9999");
-    work.fails(1, "figures cup.png --out pages --white 9999,0,3,3", "neither dark nor clipped");
+    work.fails(1, "figures cup.png --out pages --white 9999,0,3,3", "reaches beyond the photograph");
     work.fails(1, "figures missing.png --out pages", "missing.png");
     assert!(!work.path("pages").exists());
 }
@@ -87,4 +87,11 @@ fn a_white_patch_is_the_independent_measurement() {
     let html = fs::read_to_string(work.path("pages/cup-figures.html")).unwrap();
     assert!(html.contains("from a white patch of 9 \u{d7} 9 pixels at (60, 40)"));
     assert!(html.contains("Along row 40 of the photograph"));
+    work.fails(
+        1,
+        "figures cup.png --out other --white 170,40,9,9",
+        "reaches beyond the photograph, which has 178",
+    );
+    work.fails(2, "figures cup.png --out other --white -1,0,9,9", "expected column, row, columns and rows");
+    assert!(!work.path("other").exists());
 }
