@@ -116,7 +116,7 @@ pub struct RegionReflection {
 }
 
 impl RegionReflection {
-    /// Whether one skewed T explains the region; where not, the region's plane is not used.
+    /// Whether one skewed T explains the region, or its matte line alone where it has no plane; where not, the region's plane is not used.
     pub fn model_fits(&self) -> bool {
         self.verdict.fits()
     }
