@@ -25,7 +25,7 @@ pub struct Arguments {
     #[arg(required = true, value_name = "IMAGE|DIR", value_parser = place::parser())]
     inputs: Vec<PathBuf>,
     /// Folder for the results, one folder per photograph
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
     /// Of searched folders, only files whose name or relative path matches
     #[arg(long = "match", value_name = "GLOB", value_parser = inputs::parse_pattern)]

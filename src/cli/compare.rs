@@ -31,7 +31,7 @@ pub struct Arguments {
     #[arg(long, value_name = "DIR")]
     truth: Option<PathBuf>,
     /// Folder for pictures: the label map in the colors of the result's regions, the diffuse picture, and its difference from the body image
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: Option<PathBuf>,
     /// Print JSON: `{"agreement": figures, "elsewhere": scores, "result": scores}`
     #[arg(long)]
@@ -45,7 +45,10 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
         bail!("expected --labels FILE, --diffuse FILE or both");
     }
     if !is_result_folder(&arguments.result_dir) {
-        bail!("{} holds no result: `dichroscope analyze` writes one", arguments.result_dir.display());
+        bail!(
+            "{} holds no result (report.json): `dichroscope analyze` writes one",
+            arguments.result_dir.display()
+        );
     }
     let result = ResultPictures::read(&arguments.result_dir)?;
     let report = read_report(&arguments.result_dir)?;
@@ -82,12 +85,12 @@ fn both_scores(
 ) -> Result<[Scores; 2]> {
     let image = if report.image.file.is_empty() { CAMERA_FILE } else { &report.image.file };
     let Reference { truth, camera } = Reference::read(folder, image, &arguments.reading.options())?;
-    let outcome =
-        truth::Outcome { regions: &result.regions, body: &result.body, surface: &result.surface, report };
-    Ok([foreign.scores(&truth, &camera, report)?, score(&truth, &camera, &outcome)?])
     if let Some(doubt) = doubt_about_truth(&truth, &result.sum()) {
         note(&format!("warning: {doubt}"));
     }
+    let outcome =
+        truth::Outcome { regions: &result.regions, body: &result.body, surface: &result.surface, report };
+    Ok([foreign.scores(&truth, &camera, report)?, score(&truth, &camera, &outcome)?])
 }
 
 fn write(folder: &Path, foreign: &ForeignResult, result: &ResultPictures) -> Result<()> {

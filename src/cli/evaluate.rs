@@ -86,7 +86,7 @@ fn find_results(root: &Path) -> Result<Vec<Found>> {
         }
     }
     if found.is_empty() {
-        bail!("{} holds no result: `dichroscope analyze` writes one", root.display());
+        bail!("{} holds no result (report.json): `dichroscope analyze` writes one", root.display());
     }
     Ok(found)
 }

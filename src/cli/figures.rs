@@ -28,7 +28,7 @@ pub struct Arguments {
     #[arg(value_name = "IMAGE|DIR", value_parser = place::parser())]
     inputs: Vec<PathBuf>,
     /// Folder for the pages: NAME-figures.html of each photograph, and figures.html of several
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     out: PathBuf,
     /// Compare with a ground truth folder, or with those found under it by the photographs' names
     #[arg(long, value_name = "DIR")]

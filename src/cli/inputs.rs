@@ -56,7 +56,7 @@ pub(super) fn plan(inputs: &[PathBuf], pattern: Option<&GlobMatcher>, out: &Path
         } else if let Some(stem) = place::stem_of(input) {
             found.add(input, stem);
         } else {
-            bail!("{} is not the name of a file", input.display());
+            bail!("{:?} is not the name of a file", input.display().to_string());
         }
     }
     if found.list.is_empty() && found.troubles.is_empty() {

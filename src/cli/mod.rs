@@ -72,7 +72,7 @@ pub struct ScreenshotArguments {
     #[arg(value_parser = place::parser())]
     pub image: Option<PathBuf>,
     /// Folder to write the pictures to
-    #[arg(long, value_name = "DIR")]
+    #[arg(long, short, value_name = "DIR")]
     pub out: PathBuf,
     /// Size of the whole window in pixels; single views get three fifths of it
     #[arg(long, value_name = "WxH", default_value = "1440x900", value_parser = parse_size)]
@@ -133,7 +133,8 @@ pub fn run(arguments: Arguments) -> ExitCode {
     }
 }
 
-/// Fails where the window, or pictures of it, are to show standard input: they read a file again when its encoding is changed.
+/// Fails where the window, or pictures of it, cannot show what the call names: standard input, as they read a file again when its
+/// encoding is changed; a word that is neither a file nor a command; pictures of another program beside several photographs.
 ///
 /// # Errors
 /// What to do instead.
@@ -148,7 +149,6 @@ pub fn expect_files_to_show(arguments: &Arguments) -> Result<()> {
             "the window cannot show standard input: save the photograph to a file; `analyze`, `trace` and `why` read it"
         );
     }
-    Ok(())
     let is_unknown = |image: &&&Path| arguments.command.is_none() && is_bare_word(image) && !image.exists();
     if let Some(word) = images.iter().find(is_unknown) {
         bail!("{}: there is no such file and no such command; --help lists the commands", word.display());
@@ -158,6 +158,7 @@ pub fn expect_files_to_show(arguments: &Arguments) -> Result<()> {
             "--labels and --diffuse belong to one photograph: name that one alone, and open the others in the window"
         );
     }
+    Ok(())
 }
 
 /// Whether a path is one name without an extension, as that of a command is.

@@ -18,7 +18,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, Args)]
 pub struct Arguments {
     /// File to write; - for standard output
-    #[arg(long, value_name = "FILE.jsonl")]
+    #[arg(long, short, value_name = "FILE.jsonl")]
     out: PathBuf,
     /// Only the steps of one stage
     #[arg(long, value_name = "STAGE", value_parser = stage_parser())]
