@@ -131,6 +131,7 @@ proptest! {
                             value < limit
                         }
                         Barrier::Slice(SliceMiss { value, limit, .. }) => value > limit,
+                        Barrier::OtherBands { distance, limit } => distance > limit,
                         Barrier::Darker { brightness, start } => brightness <= start + 1e-3,
                     },
                     HistoryKind::Split(story) => {

@@ -27,9 +27,9 @@ const LEAST_CHROMA: f32 = 0.25;
 /// Least value of the largest band of a pixel around a blob that tells whether the blob has a hue, as a share of the clip threshold.
 const LEAST_AROUND: f32 = 0.5;
 /// Least difference of the two known bands of the unit vector h: the noise of a and c is the noise of a band divided by it.
-const LEAST_DIFFERENCE: f32 = 0.3;
+const LEAST_DIFFERENCE: f32 = 0.2;
 /// Least restored value, as a share of the clipped value.
-const LEAST_VALUE: f32 = 0.5;
+const LEAST_VALUE: f32 = 0.7;
 
 /// The colors and the masks of a picture in which bands were restored by hue.
 pub struct HueRestored {
