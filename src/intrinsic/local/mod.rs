@@ -436,7 +436,8 @@ mod tests {
             let (_, plain) = local_refined(0.1, refine, color);
             let (image, result) = local(color);
             for (pixel, input) in image.pixels.as_slice().iter().enumerate() {
-                if input.iter().all(|band| *band < CLIP_THRESHOLD) {
+                let is_clipped = input.iter().any(|band| *band >= CLIP_THRESHOLD);
+                if !is_clipped {
                     let change = vec3(result.surface[pixel]) - vec3(plain.surface[pixel]);
                     prop_assert!(change.norm() < 1e-9, "an unclipped pixel keeps its surface reflection");
                 }
@@ -444,7 +445,8 @@ mod tests {
                     let (body, surface) = (result.body[pixel][band], result.surface[pixel][band]);
                     prop_assert!(body >= 0.0 && surface >= 0.0 && body <= *input);
                     let rest = plain.body[pixel][band] + plain.surface[pixel][band] - input;
-                    prop_assert!(rest.abs() < 1e-3, "body and surface reflection are the input without the rule");
+                    // A band that was restored has more light than the file keeps.
+                    prop_assert!(rest.abs() < 1e-3 || (is_clipped && rest > 0.0), "body and surface reflection are the input without the rule");
                 }
                 prop_assert!((0.0..=1.0).contains(&result.confidence[pixel]));
             }
