@@ -207,7 +207,16 @@ fn why_tells_of_a_highlight_where_no_region_holds() {
 fn why_tells_of_print_and_of_a_clipped_core_where_no_region_holds() {
     let speck = why_marbled(SPECK, 1.0);
     says(&speck, &["but it looks like white print: log odds of a highlight ", "(nothing counts up to -1.5"]);
-    let saturated_core = why_marbled(CLIPPED, 1.0);
+    let restored = why_marbled(CLIPPED, 1.0);
+    says(
+        &restored,
+        &[
+            "restored, in region",
+            "its red alone is clipped, and is ",
+            " counts by the other two bands and the hue around; a ",
+        ],
+    );
+    let saturated_core = why_marbled_with(CLIPPED, 1.0, " --without hue_restoration");
     says(
         &saturated_core,
         &["restored, in region", "it is filled with the body around it", "but it is clipped"],
