@@ -126,7 +126,7 @@ fn split_from<R: Recorder>(
     let matte: Vec<Line> = found.plans.iter().map(|plan| plan.hypothesis.matte).collect();
     let local_regions = Regions { labels: &regions.labels, members, matte: &matte };
     let lamps = Lamps::new(&regions.light, regions.second_lamp_mask.as_ref());
-    let hue_restored = HueRestored::new(input, origin, lamps.as_ref());
+    let hue_restored = HueRestored::new(input, origin, &regions.light, lamps.as_ref());
     let observations =
         reject_regions_without_evidence(input, lamps.as_ref(), &local_regions, &images, &mut found.plans);
     let plans = &found.plans;

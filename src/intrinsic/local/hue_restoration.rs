@@ -10,6 +10,7 @@
 //! is that of h before it is made a unit vector. White paper and metal, and a blob between materials of opposite hues, have no hue that could
 //! be continued. The two known bands of h must differ (a pure red does not tell mean from chromatic part), c must be
 //! positive, and the restored band not much darker than a clipped band is: a band that comes out darker by noise keeps its clipped value.
+//! The interval of the light is at most 15°: under a lamp that was hardly known a carpet whose red clips lost its pattern.
 
 use super::desaturation_map::DesaturationMap;
 use super::lamps::{Lamp, Lamps};
@@ -17,9 +18,11 @@ use super::surroundings::{Surroundings, harmonic};
 use crate::color::length;
 use crate::photo::Masks;
 use crate::raster::{ComponentSearch, Connectivity, PixelIndex, Raster, Roi};
-use crate::segment::AnalysisInput;
+use crate::segment::{AnalysisInput, LightFindings};
 use crate::trace::{LocalLimits, RestoredBand};
 
+/// Largest interval of the light, degrees: surface reflection leaves the hue under the right light only.
+const MOST_INTERVAL_DEG: f64 = 15.0;
 /// Most pixels of a blob whose pixels are restored.
 const MOST_PIXELS: usize = 40_000;
 /// Least length of the chromatic part of J that is continued into a blob, as a share of the mean of J around the blob.
@@ -40,10 +43,17 @@ pub struct HueRestored {
 }
 
 impl HueRestored {
-    /// Restores the bands of the lit pixels with one clipped band; `None` where there is no such band, the rule is off or no light is
-    /// known. `origin`: the ambient light that was subtracted, counts.
-    pub fn new(input: &AnalysisInput, origin: &[f64; 3], lamps: Option<&Lamps>) -> Option<Self> {
-        let lamps = lamps.filter(|_| input.refine.hue_restoration && input.refine.local_split)?;
+    /// Restores the bands of the lit pixels with one clipped band; `None` where there is no such band, the rule is off, or the light is not
+    /// known well enough. `origin`: the ambient light that was subtracted, counts.
+    pub fn new(
+        input: &AnalysisInput,
+        origin: &[f64; 3],
+        light: &LightFindings,
+        lamps: Option<&Lamps>,
+    ) -> Option<Self> {
+        let is_known = light.interval_deg.is_none_or(|interval_deg| interval_deg <= MOST_INTERVAL_DEG);
+        let is_wanted = is_known && input.refine.hue_restoration && input.refine.local_split;
+        let lamps = lamps.filter(|_| is_wanted)?;
         let mut bands = restored_bands(input, &clip_thresholds(input, origin), lamps);
         if bands.is_empty() {
             return None;
@@ -221,7 +231,7 @@ mod tests {
         let used = UsedParams { clip_threshold: f64::from(CLIP), ..UsedParams::paper() };
         let input = AnalysisInput::new(&image, &masks, &used, Params::default().refinements());
         let lamps = Lamps::one(&light()).unwrap();
-        let found = HueRestored::new(&input, &[0.0; 3], Some(&lamps));
+        let found = HueRestored::new(&input, &[0.0; 3], &LightFindings::default(), Some(&lamps));
         let kept = found.as_ref().map(|found| {
             let view = found.input(&input);
             found.bands.iter().all(|band| !view.masks.clipped(band.pixel.index()))
