@@ -100,6 +100,11 @@ impl State {
         }
     }
 
+    /// Whether the panels show the pinned result in place of the newest.
+    pub fn shows_pinned(&self) -> bool {
+        self.view.show_pinned && self.pinned.is_some()
+    }
+
     /// The result of the newest run: that for the working picture, until the whole result is there. What is in working pixels or in no
     /// pixels (parameters, lights) is the same in both.
     pub fn newest_run(&self) -> Option<&ResultSnapshot> {

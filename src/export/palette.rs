@@ -13,8 +13,11 @@ const HUES: usize = 8;
 /// Order of the hues: distant hues first, so that a picture of few regions uses the whole circle.
 const HUE_ORDER: [u8; HUES] = [0, 4, 2, 6, 1, 5, 3, 7];
 const COLORS: usize = LEVELS.len() * HUES;
-/// `OKLab` distance from which on two colors are easily distinguished; among such colors the rarest is preferred.
+/// `OKLab` distance from which on two colors are easily distinguished; among such colors the first is preferred.
 const EASY_DISTANCE: f32 = 0.12;
+/// `OKLab` distance that neighbors have at least, as long as there is such a color. A color that no other label has is preferred to one
+/// at a larger distance.
+const LEAST_DISTANCE: f32 = 0.06;
 
 /// Matrices from linear sRGB to linear sRGB as seen with protanopia and with deuteranopia.
 const CONE_DEFICITS: [[[f32; 3]; 3]; 2] = [
@@ -70,8 +73,8 @@ impl Palette {
         self.colors.iter().position(|known| *known == color).map(|index| index as u8)
     }
 
-    /// The index of a color for each label, chosen label by label: a color far from the colors of the label's neighbors, and the
-    /// least used of these. `neighbors`: the labels adjacent to each label.
+    /// The index of a color for each label, chosen label by label: of the colors that differ from those of the label's neighbors the
+    /// least used, and of these the one farthest from the neighbors' colors. `neighbors`: the labels adjacent to each label.
     pub fn assign(&self, neighbors: &[Vec<u32>]) -> Vec<u8> {
         self.assign_keeping(neighbors, &[])
     }
@@ -93,8 +96,10 @@ impl Palette {
                     *clearance = clearance.min(*distance);
                 }
             }
-            let better = |a: &usize, b: &usize| {
-                clearance[*a].total_cmp(&clearance[*b]).then(uses[*b].cmp(&uses[*a])).then(b.cmp(a))
+            let better = |&a: &usize, &b: &usize| {
+                let differs = |color: usize| clearance[color] >= LEAST_DISTANCE;
+                let by_clearance = clearance[a].total_cmp(&clearance[b]);
+                differs(a).cmp(&differs(b)).then(uses[b].cmp(&uses[a])).then(by_clearance).then(b.cmp(&a))
             };
             let best = (0..COLORS).max_by(better).unwrap_or(0);
             uses[best] += 1;
@@ -212,6 +217,27 @@ mod tests {
         assert_ne!(colors[4], 7, "the rarest");
         assert!((0..COLORS as u8).all(|index| palette.index_of(palette.color(index)) == Some(index)));
         assert_eq!(palette.index_of([1, 2, 3]), None);
+    }
+
+    #[test]
+    fn labels_around_a_large_one_have_colors_of_their_own() {
+        // A background that touches all of twelve objects, and objects in a row that touch one another.
+        let mut neighbors = vec![vec![], (2..=13).collect()];
+        neighbors.extend((2..=13u32).map(|label| vec![1, label - 1, label + 1]));
+        neighbors[2] = vec![1, 3];
+        neighbors[13] = vec![1, 12];
+        let palette = Palette::new();
+        let colors = palette.assign(&neighbors).split_off(1);
+        let mut distinct = colors.clone();
+        distinct.sort_unstable();
+        distinct.dedup();
+        assert_eq!(distinct.len(), colors.len());
+        for (label, list) in neighbors.iter().enumerate().skip(1) {
+            for &other in list {
+                let (a, b) = (usize::from(colors[label - 1]), usize::from(colors[other as usize - 1]));
+                assert!(palette.distances[a][b] >= LEAST_DISTANCE, "{label} and {other}");
+            }
+        }
     }
 
     #[test]

@@ -2,8 +2,9 @@
 
 use super::pane::Pane;
 use crate::app::{Direction, StepUnit, Switching};
+use crate::params::{Method, Preset};
 use crate::raster::RegionId;
-use crate::view::{ElsewhereKind, Layer, Tool};
+use crate::view::{ElsewhereKind, Layer, Theme, Tool};
 
 /// What a key or a menu does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,6 +23,22 @@ pub enum Action {
     ExportLayer(Layer, LayerFile),
     /// Open the export dialog for the pixels of a set.
     ExportPixels(PixelSet),
+    /// Open the dialog that saves the workspace to another file.
+    SaveWorkspaceAs,
+    /// Open the dialog that reads parameters from a file.
+    LoadParameters,
+    /// Open the dialog that writes the parameters to a file.
+    SaveParameters,
+    /// Copy the `dichroscope analyze` call that reproduces what is on the screen.
+    CopyCommandLine,
+    /// Open a sample scene, by its index in the list of scenes.
+    Sample(usize),
+    /// Open the sample scenes of three lamps together.
+    ThreeLamps,
+    /// Read the photograph with an encoding, by its index in the list of encodings that the menu offers.
+    ReadAs(usize),
+    /// Forget the photographs that were opened before.
+    ForgetRecent,
     /// Save the workspace: to its file, or where the dialog says when it has none.
     Save,
     /// Show another open photograph.
@@ -48,6 +65,14 @@ pub enum Action {
     KeepMark,
     /// Fit a skewed T to the marked pixels.
     FitSkewedT,
+    /// Analyze only the marked pixels.
+    AnalyzeMarked,
+    /// Analyze the whole picture again.
+    AnalyzeAll,
+    /// Analyze by a method.
+    Method(Method),
+    /// Take the parameters of a column of table 6.
+    Preset(Preset),
     /// Select nothing.
     Escape,
     /// Select the region after (`true`) or before the selected one.
@@ -64,18 +89,41 @@ pub enum Action {
     Fit,
     /// Show one pixel for each screen point.
     OneToOne,
+    /// Zoom the image view, or move the picture in it, by one step.
+    View(ViewStep),
     /// Switch between outlines and fills.
     Outline,
     /// Lock readout and inspector to the selected pixel or region, or let them follow the pointer.
     LockReadout,
     /// Switch between the light and the dark theme.
     Theme,
+    /// Use a theme.
+    UseTheme(Theme),
     /// Move the debugger's cursor, or start or stop recording.
     Debug(DebugAction),
     /// Show every action by its name.
     Palette,
+    /// Open the first menu of the menu bar, or close the open one.
+    Menus,
     /// Show the list of keys.
     Help,
+}
+
+/// A step of the image view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ViewStep {
+    /// Enlarge the picture.
+    ZoomIn,
+    /// Reduce the picture.
+    ZoomOut,
+    /// Show more of the left.
+    Left,
+    /// Show more of the right.
+    Right,
+    /// Show more of the top.
+    Up,
+    /// Show more of the bottom.
+    Down,
 }
 
 /// Pixels that are exported.

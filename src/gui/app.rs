@@ -3,16 +3,18 @@
 use super::action::Action;
 use super::command_palette::CommandPalette;
 use super::compact_dock::CompactDock;
-use super::dock::{Dock, Panels};
+use super::dock::{Dock, Panels, TAB_BAR_PT};
 use super::dropped_files::open_dropped_and_pasted;
 use super::files::Dialogs;
 use super::keyboard_focus::KeyboardFocus;
+use super::menu_keys::MenuKeys;
 use super::pane::Pane;
 use super::theme::{self, ThemeColors};
 use super::view_export::ViewExporter;
 use super::{PanelContext, menu, notices, perform, shortcuts, task, timeline_panel, widgets};
 use crate::app::{
-    Application, Command, DebugCommand, Executor, JobCommand, Settings, State, ViewCommand, catch_panic,
+    Application, Command, DebugCommand, Executor, JobCommand, Settings, Severity, State, ViewCommand,
+    analyze_call, catch_panic,
 };
 use crate::view::{ProfileLine, Theme, Tool};
 use egui::{Event, RichText, Ui};
@@ -34,6 +36,8 @@ pub struct App {
 struct WindowContent {
     dock: Dock,
     compact_dock: CompactDock,
+    /// Whether the panels were tabs of one group in the last frame.
+    is_compact: bool,
     /// The arrangement that was last sent to the state.
     layout: String,
     /// The camera that was last sent to the state.
@@ -44,6 +48,9 @@ struct WindowContent {
     view_exporter: ViewExporter,
     notices: notices::Notices,
     keyboard_focus: KeyboardFocus,
+    menu_keys: MenuKeys,
+    /// Whether an item of a panel was under the pointer in the last frame.
+    hovers: bool,
     /// The line of the profile in the last frame.
     profile: ProfileLine,
     /// Whether a font for further scripts was looked for.
@@ -154,6 +161,7 @@ impl App {
             is_export: false,
             commands: &mut commands,
             actions: &mut actions,
+            hovers: false,
         };
         if !draw_frame(&mut cx, |cx| self.content.show(ui, cx)) {
             // Dialogs and help may be what failed. The panels catch their own panics.
@@ -243,7 +251,10 @@ impl WindowContent {
             timeline_panel::track_id(),
         );
         let owns_keyboard = self.dialogs.is_open() || self.command_palette.is_open();
-        let held_keys = owns_keyboard.then(|| take_keys(ui.ctx()));
+        if !owns_keyboard {
+            self.menu_keys.handle(ui.ctx());
+        }
+        let mut held_keys = owns_keyboard.then(|| take_keys(ui.ctx()));
         let pressed = shortcuts::pressed(ui.ctx(), escape_is_action, listeners, &mut self.space_tap);
         for action in std::mem::take(&mut self.actions).into_iter().chain(pressed) {
             // A dialog is invisible in its first frame, in which egui measures the dialog.
@@ -253,20 +264,27 @@ impl WindowContent {
                 Action::Show(pane) => self.raise(pane),
                 Action::ShowAll => self.dock.reset(),
                 Action::Palette => self.command_palette.toggle(ui.ctx()),
+                Action::Menus => self.menu_keys.toggle(ui.ctx()),
+                Action::CopyCommandLine => copy_command_line(ui, cx),
+                Action::View(step) => self.panels.image.step_view(ui.ctx(), cx, step),
                 _ => perform::carry_out(action, cx, &mut self.dialogs, &mut self.help),
             }
         }
         if let Some(pane) = self.single_pane {
             let frame = egui::Frame::new().fill(cx.palette.panel);
             egui::CentralPanel::default().frame(frame).show(ui, |ui| self.panels.show(pane, ui, cx));
+            self.end_hover(cx);
             return;
         }
         let menu_frame =
             egui::Frame::new().fill(cx.palette.panel).inner_margin(egui::Margin::symmetric(8, 3));
         egui::Panel::top("menu").frame(menu_frame).show(ui, |ui| {
-            menu::show(ui, cx, &mut self.dock, &mut self.dialogs, &mut self.help);
+            menu::show(ui, cx, &mut self.menu_keys, &mut self.dock);
         });
-        self.notices.show(ui, cx);
+        // The keys of an open menu were for the menu.
+        if self.menu_keys.is_open(ui.ctx()) {
+            held_keys.get_or_insert_default().extend(take_keys(ui.ctx()));
+        }
         self.raise_drawn_profile(cx);
         let frame = egui::Frame::new().fill(cx.palette.line);
         egui::CentralPanel::default().frame(frame).show(ui, |ui| {
@@ -279,6 +297,10 @@ impl WindowContent {
         if let Some(keys) = held_keys {
             ui.ctx().input_mut(|input| input.events.extend(keys));
         }
+        self.end_hover(cx);
+        let timeline = self.dock.rect_of(Pane::Timeline).filter(|_| !self.is_compact);
+        let floor = timeline.map_or(ui.ctx().content_rect().bottom(), |timeline| timeline.top() - TAB_BAR_PT);
+        self.notices.show(ui, cx, floor);
         self.command_palette.show(ui, cx);
         if let Some(view_export) = self.dialogs.show(ui, cx) {
             self.view_exporter.begin(ui.ctx(), view_export, cx, &self.panels.cube);
@@ -291,9 +313,17 @@ impl WindowContent {
         self.keyboard_focus.show(ui.ctx(), cx.palette);
     }
 
+    /// Forgets what was under the pointer, once the pointer is on another panel, on the menu bar or out of the window.
+    fn end_hover(&mut self, cx: &mut PanelContext) {
+        if std::mem::replace(&mut self.hovers, cx.hovers) && !cx.hovers {
+            cx.send(ViewCommand::Hover(None));
+        }
+    }
+
     /// Shows the panels as they are arranged, or where there is no room for that, as tabs of one group.
     fn show_panels(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
-        if CompactDock::is_needed(ui.available_size()) {
+        self.is_compact = CompactDock::is_needed(ui.available_size());
+        if self.is_compact {
             self.compact_dock.show(ui, &self.dock, &mut self.panels, cx);
         } else {
             self.dock.show(ui, &mut self.panels, cx);
@@ -357,6 +387,15 @@ fn all_panels_hidden(ui: &mut Ui, cx: &mut PanelContext) {
     });
 }
 
+/// Copies the call of the program that reproduces what is on the screen.
+fn copy_command_line(ui: &Ui, cx: &mut PanelContext) {
+    if cx.state.picture.is_some() {
+        ui.ctx().copy_text(analyze_call(cx.state));
+        let text = "the command line is in the clipboard".to_owned();
+        cx.send(ViewCommand::Notify(Severity::Done, text));
+    }
+}
+
 /// Draws a frame with `draw`. After a panic of `draw`, the result is false, and the panic becomes a notice with which the
 /// workspace is saved. Commands that were sent before the panic are kept.
 fn draw_frame(cx: &mut PanelContext, draw: impl FnOnce(&mut PanelContext)) -> bool {
@@ -413,6 +452,7 @@ mod tests {
             is_export: false,
             commands: &mut commands,
             actions: &mut actions,
+            hovers: false,
         };
         assert!(draw_frame(&mut cx, |cx| cx.send(ViewCommand::ForgetRecent)));
         let is_drawn = draw_frame(&mut cx, |cx| {

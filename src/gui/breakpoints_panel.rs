@@ -73,10 +73,10 @@ impl BreakpointsPanel {
     #[allow(clippy::unused_self, reason = "as the other panels")]
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let mut breakpoints = cx.state.view.debug.breakpoints.clone();
-        ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             egui::Frame::new().inner_margin(8).show(ui, |ui| {
                 ui.spacing_mut().item_spacing.x = 6.0;
-                ui.horizontal(|ui| {
+                ui.horizontal_wrapped(|ui| {
                     let tip = "Playing, running and stepping into stop where its condition holds.";
                     if ui.button("Add breakpoint").on_hover_text(tip).clicked() {
                         let condition = kind_for_selection(cx.state).default_condition(cx.state);
@@ -90,7 +90,7 @@ impl BreakpointsPanel {
                 let mut removed = None;
                 for (index, breakpoint) in breakpoints.iter_mut().enumerate() {
                     let removed_row =
-                        ui.push_id(index, |ui| ui.horizontal(|ui| row(ui, cx, index, breakpoint)));
+                        ui.push_id(index, |ui| ui.horizontal_wrapped(|ui| row(ui, cx, index, breakpoint)));
                     if removed_row.inner.inner {
                         removed = Some(index);
                     }

@@ -1,10 +1,13 @@
 //! The command palette: every action by its name, found by typing some of its letters, with its key.
 
 use super::action::{Action, LayerFile, PixelSet};
+use super::menu::{READINGS, THEMES, method_name};
 use super::pane::Pane;
 use super::shortcuts::{keys_of, named_actions};
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
+use crate::params::{Method, Preset};
+use crate::truth::sample::SAMPLES;
 use crate::view::{ElsewhereKind, Layer};
 use egui::{Button, Id, Key, Modifiers, RichText, ScrollArea, TextEdit, Ui};
 
@@ -34,6 +37,14 @@ fn entries() -> Vec<Entry> {
         .map(|pane| Entry { action: Action::Show(pane), name: format!("Show: {}", pane.title()) });
     let others = [
         (Action::OpenWorkspace, "File: Open a workspace"),
+        (Action::SaveWorkspaceAs, "File: Save the workspace as another file"),
+        (Action::ThreeLamps, "File: Open the sample scenes of three lamps"),
+        (Action::ForgetRecent, "File: Forget the photographs opened before"),
+        (Action::LoadParameters, "Analyze: Load parameters"),
+        (Action::SaveParameters, "Analyze: Save parameters"),
+        (Action::AnalyzeMarked, "Analyze: Only the marked pixels"),
+        (Action::AnalyzeAll, "Analyze: The whole picture"),
+        (Action::CopyCommandLine, "Analyze: Copy as command line"),
         (Action::OpenElsewhere(ElsewhereKind::Labels), "File: Open a label map of another program"),
         (Action::OpenElsewhere(ElsewhereKind::Diffuse), "File: Open a diffuse picture of another program"),
         (Action::CloseElsewhere(ElsewhereKind::Labels), "File: Close the label map of another program"),
@@ -46,12 +57,41 @@ fn entries() -> Vec<Entry> {
         (Action::ShowAll, "Window: Arrange the panels as at first"),
     ];
     let others = others.map(|(action, name)| Entry { action, name: name.to_owned() });
-    for entry in keyed.chain(layers).chain(panes).chain(layer_files).chain(others) {
-        if entry.action != Action::Palette && entries.iter().all(|known| known.action != entry.action) {
+    let of_menus = choices_of_menus();
+    for entry in keyed.chain(layers).chain(panes).chain(of_menus).chain(layer_files).chain(others) {
+        let opens_a_list = matches!(entry.action, Action::Palette | Action::Menus);
+        if !opens_a_list && entries.iter().all(|known| known.action != entry.action) {
             entries.push(entry);
         }
     }
     entries
+}
+
+/// The choices of menus: scenes, encodings, methods, columns of table 6 and themes.
+fn choices_of_menus() -> impl Iterator<Item = Entry> {
+    let samples = SAMPLES.iter().enumerate().map(|(index, sample)| {
+        (Action::Sample(index), format!("File: Open the sample scene {}", sample.name))
+    });
+    let readings = READINGS
+        .iter()
+        .enumerate()
+        .map(|(index, reading)| (Action::ReadAs(index), format!("File: Read as {}", reading.name)));
+    let methods = Method::ALL
+        .into_iter()
+        .map(|method| (Action::Method(method), format!("Analyze: {}", method_name(method))));
+    let presets = Preset::ALL
+        .into_iter()
+        .map(|preset| (Action::Preset(preset), format!("Analyze: Preset of table 6, {}", preset.title())));
+    let themes =
+        THEMES.into_iter().map(|(theme, name)| (Action::UseTheme(theme), format!("Window: {name} theme")));
+    let all = samples.chain(readings).chain(methods).chain(presets).chain(themes);
+    all.map(|(action, name)| Entry { action, name })
+}
+
+/// The actions that the palette lists.
+#[cfg(test)]
+pub fn listed_actions() -> Vec<Action> {
+    entries().into_iter().map(|entry| entry.action).collect()
 }
 
 /// Whether a name contains every word of a query, in any order and case.

@@ -50,7 +50,6 @@ pub struct CubePanel {
     scene: Scene,
     /// The camera for which the lines of the scene were made: silhouettes depend on the camera.
     lines_camera: Option<Orbit>,
-    is_hovering: bool,
     size: [f32; 2],
 }
 
@@ -280,14 +279,14 @@ impl CubePanel {
             pick::nearest(&self.cloud.bins, projector, at, HOVER_RADIUS_PT).map(|hit| hit.index as u32)
         });
         let hover = bin.map(Item::Bin);
-        let was_hovering = std::mem::replace(&mut self.is_hovering, pointer.is_some());
-        if (self.is_hovering || was_hovering) && cx.state.hover != hover {
-            cx.send(ViewCommand::Hover(hover));
-            // One bin is one to three pixels of the picture, hardly to be seen: all bins near the pointer are shown.
-            let bins = pointer.filter(|_| hover.is_some()).map_or_else(Vec::new, |at| {
-                pick::within(&self.cloud.bins, projector, (at - rect.min).into(), HOVER_RADIUS_PT)
-            });
-            cx.send(ViewCommand::HoverBins(bins.into_iter().map(|bin| bin as u32).collect()));
+        if let Some((item, at)) = hover.zip(pointer) {
+            let is_new = cx.state.hover != hover;
+            cx.hover(item);
+            if is_new {
+                // One bin is one to three pixels of the picture, hardly to be seen: all bins near the pointer are shown.
+                let bins = pick::within(&self.cloud.bins, projector, (at - rect.min).into(), HOVER_RADIUS_PT);
+                cx.send(ViewCommand::HoverBins(bins.into_iter().map(|bin| bin as u32).collect()));
+            }
         }
         if response.clicked() && !response.double_clicked() && cx.state.view.cube.tool == Tool::Pointer {
             let alt = response.ctx.input(|input| input.modifiers.alt);

@@ -3,6 +3,7 @@
 //! A new panel is a module with a function `show`, and a row of the table.
 
 use super::PanelContext;
+use super::about::About;
 use super::pane::Pane;
 use super::theme::ThemeColors;
 use egui::{Color32, Rect, Stroke, Ui, Visuals, WidgetText};
@@ -12,6 +13,8 @@ use egui_tiles::{
 
 /// A row of the table: one panel.
 struct PaneRow {
+    /// The result that the panel is about.
+    about: About,
     /// The background color of the panel.
     background: fn(&ThemeColors) -> Color32,
     /// The group of tabs that the panel belongs to in the first arrangement.
@@ -58,11 +61,13 @@ macro_rules! panes {
 
 panes! {
     Image { image: super::image_panel::ImagePanel } PaneRow {
+        about: About::Shown,
         background: |palette| palette.background,
         tabs: TabGroup::Image,
         show: |panels, ui, cx| panels.image.show(ui, cx),
     };
     Colors { cube: super::cube_panel::CubePanel } PaneRow {
+        about: About::Shown,
         background: |palette| palette.background,
         tabs: TabGroup::Colors,
         show: |panels, ui, cx| {
@@ -71,61 +76,73 @@ panes! {
         },
     };
     Plane { plane: super::plane_panel::PlanePanel } PaneRow {
+        about: About::Shown,
         background: |palette| palette.panel,
         tabs: TabGroup::Plots,
         show: |panels, ui, cx| panels.plane.show(ui, cx),
     };
     Profile { profile: super::profile_panel::ProfilePanel } PaneRow {
+        about: About::Shown,
         background: |palette| palette.panel,
         tabs: TabGroup::Plots,
         show: |panels, ui, cx| panels.profile.show(ui, cx),
     };
     Geometry { geometry: super::geometry_panel::GeometryPanel } PaneRow {
+        about: About::None,
         background: |palette| palette.panel,
         tabs: TabGroup::Plots,
         show: |panels, ui, cx| panels.geometry.show(ui, cx),
     };
     Parameters {} PaneRow {
+        about: About::Newest,
         background: |palette| palette.panel,
         tabs: TabGroup::Parameters,
         show: |_, ui, cx| super::parameters::show(ui, cx),
     };
     Regions { regions: super::regions_panel::RegionsPanel } PaneRow {
+        about: About::Shown,
         background: |palette| palette.panel,
         tabs: TabGroup::Tables,
         show: |panels, ui, cx| panels.regions.show(ui, cx),
     };
     Selection { selection: super::selection_panel::SelectionPanel } PaneRow {
+        about: About::Shown,
         background: |palette| palette.panel,
         tabs: TabGroup::Tables,
         show: |panels, ui, cx| panels.selection.show(ui, cx),
     };
     Compare { compare: super::compare_panel::ComparePanel } PaneRow {
+        about: About::None,
         background: |palette| palette.panel,
         tabs: TabGroup::Tables,
         show: |panels, ui, cx| panels.compare.show(ui, cx),
     };
     History { history: super::history_panel::HistoryPanel } PaneRow {
+        about: About::Newest,
         background: |palette| palette.panel,
         tabs: TabGroup::Tables,
         show: |panels, ui, cx| panels.history.show(ui, cx),
     };
     Timeline { timeline: super::timeline_panel::TimelinePanel } PaneRow {
+        about: About::Newest,
         background: |palette| palette.panel,
         tabs: TabGroup::Timeline,
         show: |panels, ui, cx| panels.timeline.show(ui, cx),
     };
     Inspector { inspector: super::inspector_panel::InspectorPanel } PaneRow {
+        about: About::Shown,
         background: |palette| palette.panel,
         tabs: TabGroup::Questions,
         show: |panels, ui, cx| panels.inspector.show(ui, cx),
     };
     Watch { watch: super::watch_panel::WatchPanel } PaneRow {
+        about: About::Newest,
         background: |palette| palette.panel,
         tabs: TabGroup::Questions,
         show: |panels, ui, cx| panels.watch.show(ui, cx),
     };
     Breakpoints { breakpoints: super::breakpoints_panel::BreakpointsPanel } PaneRow {
+        about: About::None,
         background: |palette| palette.panel,
         tabs: TabGroup::Questions,
         show: |panels, ui, cx| panels.breakpoints.show(ui, cx),
@@ -163,8 +180,15 @@ impl Panels {
             );
             cx.send(crate::app::JobCommand::Rescue(text));
         }
+        // The image shows the newer result as far as it is computed, and dims single layers.
+        if pane != Pane::Image {
+            row.about.mark(ui, cx, (row.background)(cx.palette));
+        }
     }
 }
+
+/// Height of the tabs over a panel, points.
+pub const TAB_BAR_PT: f32 = 22.0;
 
 /// The tree of panels that a person arranges.
 pub struct Dock {
@@ -186,6 +210,12 @@ impl Dock {
     /// Whether a panel is in the window, in front or behind another tab.
     pub fn is_visible(&self, pane: Pane) -> bool {
         self.find(pane).is_some_and(|id| self.tree.is_visible(id))
+    }
+
+    /// The place of a panel in the last frame; none where it is hidden or behind another tab.
+    pub fn rect_of(&self, pane: Pane) -> Option<Rect> {
+        let id = self.find(pane).filter(|_| self.is_visible(pane) && self.is_in_front(pane))?;
+        self.tree.tiles.rect(id)
     }
 
     /// Whether every panel is hidden.
@@ -319,11 +349,12 @@ impl Behavior<Pane> for DockBehavior<'_, '_> {
     }
 
     fn tab_title_for_pane(&mut self, pane: &Pane) -> WidgetText {
-        egui::RichText::new(pane.title()).size(super::theme::SMALL_PT).into()
+        let title = format!("{}{}", pane.title(), pane.row().about.suffix(self.cx.state));
+        egui::RichText::new(title).size(super::theme::SMALL_PT).into()
     }
 
     fn tab_bar_height(&self, _style: &egui::Style) -> f32 {
-        22.0
+        TAB_BAR_PT
     }
 
     fn tab_bar_color(&self, _visuals: &Visuals) -> Color32 {

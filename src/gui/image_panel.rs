@@ -4,6 +4,7 @@ mod cursor;
 mod geometry;
 mod icons;
 mod navigation;
+mod notes;
 mod other_size;
 mod overlay;
 mod readout;
@@ -14,6 +15,8 @@ mod toolbar;
 mod tools;
 mod white_patch;
 
+use super::action::ViewStep;
+use super::keyboard_focus::is_keyboard_owned;
 use super::status::PROGRESS_DELAY;
 use super::verdict_strip::StepSentence;
 use super::{PanelContext, context_menu, start, verdict_strip, widgets};
@@ -27,7 +30,8 @@ use egui::{
     WidgetInfo, pos2, vec2,
 };
 pub use geometry::Placement;
-use navigation::navigate;
+use navigation::{navigate, stepped};
+use notes::DismissedNotes;
 use std::sync::Arc;
 use texts::show_texts;
 use textures::{PaintRequest, Slot, TextureCache};
@@ -46,17 +50,17 @@ pub struct ImagePanel {
     textures: TextureCache,
     instant_cache: InstantCache,
     tool_state: ToolState,
-    /// The pixel under the pointer that this panel sent last.
-    sent_pixel: Option<PixelIndex>,
     /// The layer of the last frame, if the instant at the cursor was shown in place of the layer.
     hidden_layer: Option<Layer>,
-    /// The zoom of the last frame, screen points per pixel.
-    zoom: f32,
+    /// The placement of the picture in the last frame; none before the first frame.
+    place: Option<Placement>,
     /// The toolbar's height in the last frame, points.
     toolbar_height_pt: f32,
     /// The height of the verdict when it was last shown, points.
     verdict_height_pt: f32,
     step_sentence: StepSentence,
+    /// The notes over the picture that a person dismissed.
+    notes: DismissedNotes,
     /// The pixel that the context menu is about.
     menu_pixel: Option<PixelIndex>,
     /// Whether the key is held that shows the photograph in place of the layer.
@@ -70,6 +74,14 @@ impl ImagePanel {
         {
             self.tool_state.cancel();
         }
+    }
+
+    /// Zooms the view, or moves the picture in it, by one step.
+    pub fn step_view(&self, ctx: &egui::Context, cx: &mut PanelContext, step: ViewStep) {
+        let Some(place) = self.place.filter(|_| cx.state.picture.is_some()) else { return };
+        let mut settings = cx.state.view.image.clone();
+        stepped(place, step, ctx.pointer_hover_pos()).store(&mut settings);
+        cx.send(ViewCommand::Image(settings));
     }
 
     /// Shows the panel.
@@ -90,8 +102,9 @@ impl ImagePanel {
         }
         let bar = Frame::new().fill(palette.panel);
         let top = Panel::top("image toolbar").frame(bar.inner_margin(Margin::symmetric(6, 3)));
+        let zoom = self.place.map_or(0.0, |place| place.zoom);
         let top = top.show(ui, |ui| {
-            toolbar::row(ui, state, palette, &mut settings, &mut debug, self.zoom, cx.actions);
+            toolbar::row(ui, state, palette, &mut settings, &mut debug, zoom, cx.actions);
         });
         // The height of a row that wraps is known from the next frame on.
         let height = top.response.rect.height();
@@ -137,7 +150,7 @@ impl ImagePanel {
     /// place of the photograph. None while the key is up, and while a text is edited.
     fn held_layer(&mut self, ui: &Ui, settings: &ImageSettings) -> Option<Layer> {
         let is_held = ui.input(|input| input.key_down(Key::C) && input.modifiers.is_none());
-        self.is_compared = is_held && !ui.ctx().text_edit_focused() && self.is_compared_or_pressed(ui);
+        self.is_compared = is_held && !is_keyboard_owned(ui.ctx()) && self.is_compared_or_pressed(ui);
         let shows_photograph = settings.arrangement == Arrangement::Single && settings.layer == Layer::Input;
         let other = if shows_photograph { Layer::Body } else { Layer::Input };
         self.is_compared.then_some(other)
@@ -168,11 +181,8 @@ impl ImagePanel {
             let response = panel.show(ui, |ui| {
                 ui.set_min_height(VERDICT_LINE_PT);
                 if is_low {
-                    // The picture comes first: what does not fit into one line is scrolled.
-                    let area = egui::ScrollArea::vertical()
-                        .max_height(VERDICT_LINE_PT)
-                        .min_scrolled_height(VERDICT_LINE_PT);
-                    area.show(ui, |ui| verdict_strip::show(ui, cx, shown));
+                    // The picture comes first: what does not fit into one line is shown over the picture on demand.
+                    verdict_strip::show_line(ui, cx, shown);
                 } else {
                     verdict_strip::show(ui, cx, shown);
                 }
@@ -220,7 +230,9 @@ impl ImagePanel {
             hovered_pixel =
                 self.show_view(ui, cx, settings, Placement::new(full, size, settings), Slot::Layer);
         }
-        self.send_hover(cx, hovered_pixel.filter(|_| !settings.readout_locked));
+        if let Some(pixel) = hovered_pixel.filter(|_| !settings.readout_locked) {
+            cx.hover(Item::Pixel(pixel));
+        }
     }
 
     /// Shows the second view with a photograph of another size than `size`, the size of the photograph shown. Returns the pixel of
@@ -244,7 +256,7 @@ impl ImagePanel {
             texture.draw(&painter, &place, Color32::WHITE);
         }
         other_size::paint_marks(&painter, cx, &place, size);
-        show_texts(ui, &painter, cx, &[(layer, Slot::SecondLayer, place.view)], true, None);
+        show_texts(ui, &painter, cx, &[(layer, Slot::SecondLayer, place.view)], true, None, &mut self.notes);
         other_size::pixel_under_pointer(ui, &place, size)
     }
 
@@ -257,7 +269,7 @@ impl ImagePanel {
         place: Placement,
         slot: Slot,
     ) -> Option<PixelIndex> {
-        self.zoom = place.zoom;
+        self.place = Some(place);
         let name = if slot == Slot::Layer { "Picture" } else { "Second picture" };
         let response = ui.interact(place.view, ui.scope_id().with(name), Sense::click_and_drag());
         response.widget_info(|| WidgetInfo::labeled(Role::Image, true, name));
@@ -376,7 +388,7 @@ impl ImagePanel {
             paint_wipe_line(&painter, cx, place.view, x);
         }
         let shows_names = settings.arrangement != Arrangement::Single || self.is_compared;
-        show_texts(ui, &painter, cx, &parts, shows_names, instant.as_deref());
+        show_texts(ui, &painter, cx, &parts, shows_names, instant.as_deref(), &mut self.notes);
     }
 
     /// Paints the instant at the debugger's cursor over the photograph.
@@ -401,19 +413,6 @@ impl ImagePanel {
             }
         }
         cursor::mark_step(painter, &context.place, instant);
-    }
-
-    /// Sends the pixel under the pointer as hovered, when the pixel has changed.
-    fn send_hover(&mut self, cx: &mut PanelContext, pixel: Option<PixelIndex>) {
-        let item = pixel.map(Item::Pixel);
-        let concerns_hover = self.sent_pixel.is_some() || pixel.is_some();
-        if concerns_hover
-            && item != cx.state.hover
-            && (pixel.is_some() || self.sent_pixel.map(Item::Pixel) == cx.state.hover)
-        {
-            cx.send(ViewCommand::Hover(item));
-        }
-        self.sent_pixel = pixel;
     }
 }
 

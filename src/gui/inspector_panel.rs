@@ -13,10 +13,11 @@ use crate::app::State;
 use crate::describe::Names;
 use crate::raster::{HypothesisId, PixelIndex};
 use crate::view::{
-    Inspection, Item, Why, histograms_at_cursor, inspect_item, inspect_marked, inspect_step, why,
+    Inspection, Item, Why, histograms_at_cursor, inspect_beginning, inspect_item, inspect_item_at,
+    inspect_marked, inspect_step, why,
 };
 use actions::Subject;
-use egui::{ScrollArea, Ui};
+use egui::{Label, RichText, ScrollArea, Ui};
 use std::sync::Arc;
 
 /// Identity of the answers: generation of the trace, pixel, and hypothesis id.
@@ -45,7 +46,7 @@ impl InspectorPanel {
         }
         let step = self.inspected_step(cx.state);
         let (item, is_hovered) = inspected_item(cx.state);
-        let found = item.zip(cx.state.shown()).and_then(|(item, shown)| inspect_item(shown, item));
+        let found = item.and_then(|item| inspected(cx.state, item));
         let marked = self.inspected_marked(ui, cx.state);
         let has_answers = cx.state.explained_pixel().is_some()
             || cx.state.selected_region().is_some()
@@ -104,7 +105,8 @@ impl InspectorPanel {
         let place = (state.debugger.generation, replay.at());
         if self.step.as_ref().is_none_or(|(generation, at, _)| (*generation, *at) != place) {
             let colors = &shown.analysis.working.image.pixels;
-            let found = inspect_step(replay, &Names::of(replay.trace()), colors);
+            let found = inspect_step(replay, &Names::of(replay.trace()), colors)
+                .or_else(|| Some(inspect_beginning(replay.trace().len())));
             self.step = Some((place.0, place.1, found));
         }
         self.step.as_ref().and_then(|(_, _, found)| found.clone())
@@ -122,6 +124,11 @@ impl InspectorPanel {
     /// Shows the history of the selected pixel or region.
     fn show_history(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let debugger = &cx.state.debugger;
+        if cx.state.shows_pinned() {
+            let text = "The history is that of the newest result, which the key A shows again.";
+            ui.add(Label::new(RichText::new(text).color(cx.palette.secondary)).wrap());
+            return;
+        }
         let (Some(trace), Some(shown)) = (debugger.trace().cloned(), cx.state.newest.clone()) else {
             return answers::not_recorded(ui, cx);
         };
@@ -142,10 +149,18 @@ impl InspectorPanel {
     }
 }
 
+/// The findings about an item: at the debugger's cursor where that is followed, otherwise in the result that is shown.
+fn inspected(state: &State, item: Item) -> Option<Inspection> {
+    match (state.followed(), &state.newest) {
+        (Some(replay), Some(newest)) => inspect_item_at(replay, &state.debugger.names, newest, item),
+        _ => inspect_item(state.shown()?, item),
+    }
+}
+
 /// The item that the inspector is about: the hovered one, otherwise the clicked pixel or the selected item; and whether the item is
 /// hovered.
 fn inspected_item(state: &State) -> (Option<Item>, bool) {
-    if state.followed().is_none() && state.hover.is_some() {
+    if state.hover.is_some() {
         return (state.hover, true);
     }
     (state.explained_pixel().map(Item::Pixel).or(state.document.selection.item), false)

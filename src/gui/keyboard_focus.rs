@@ -1,12 +1,17 @@
 //! The ring around the widget that has the focus of the keyboard.
 
 use super::theme::ThemeColors;
-use egui::{Context, FocusDirection, Id, Key, LayerId, Order, Response, Stroke, StrokeKind};
+use egui::{Context, FocusDirection, Id, Key, LayerId, Order, Popup, Response, Stroke, StrokeKind};
+
+/// Whether keys belong to a text that is being edited or to an open menu, and to no view.
+pub fn is_keyboard_owned(ctx: &Context) -> bool {
+    ctx.text_edit_focused() || Popup::is_any_open(ctx)
+}
 
 /// The focus, where it came by a key. A focus that came by the pointer needs no ring: the pointer shows the place.
 #[derive(Default)]
 pub struct KeyboardFocus {
-    /// Whether the focus came by the key Tab.
+    /// Whether the focus came by the key Tab, or in a menu by an arrow key.
     is_by_key: bool,
     /// Whether the last Tab was pressed with Shift.
     is_moving_back: bool,
@@ -35,11 +40,18 @@ impl KeyboardFocus {
     /// Paints a ring around the focused widget, when the focus came by a key. A selection has a fill and no ring. To be called
     /// after the panels are shown.
     pub fn show(&mut self, ctx: &Context, palette: &ThemeColors) {
-        let (by_key, by_pointer, shift) = ctx
-            .input(|input| (input.key_pressed(Key::Tab), input.pointer.any_pressed(), input.modifiers.shift));
-        if by_key {
+        let in_menu = Popup::is_any_open(ctx);
+        let (by_tab, by_arrow, by_pointer, shift) = ctx.input(|input| {
+            let is_arrow = [Key::ArrowUp, Key::ArrowDown, Key::ArrowLeft, Key::ArrowRight, Key::F10]
+                .into_iter()
+                .any(|key| input.key_pressed(key));
+            let (tab, pointer) = (input.key_pressed(Key::Tab), input.pointer.any_pressed());
+            (tab, in_menu && is_arrow, pointer, input.modifiers.shift)
+        });
+        if by_tab {
             self.is_moving_back = shift;
         }
+        let by_key = by_tab || by_arrow;
         self.is_by_key = (self.is_by_key || by_key) && !by_pointer;
         let focused = ctx.memory(egui::Memory::focused).filter(|_| self.is_by_key);
         if let Some(widget) = focused.and_then(|id| ctx.read_response(id)) {

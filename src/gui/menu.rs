@@ -1,118 +1,156 @@
 //! The menu bar: every action by its name, and the status line.
 
-use super::action::{Action, DebugAction};
+use super::action::{Action, DebugAction, ViewStep};
 use super::dock::Dock;
-use super::files::{Dialog, Dialogs};
-use super::move_cursor::{move_cursor, selected_goal};
+use super::menu_keys::{MenuKeys, submenu};
+use super::move_cursor::selected_goal;
 use super::pane::Pane;
 use super::shortcuts::keys_of;
 use super::typed_path::unique_names;
 use super::widgets::capitalized;
-use super::{PanelContext, perform, status};
-use crate::app::{Edit, JobCommand, NamedMarkEdit, Severity, StepUnit, Switching, ViewCommand, analyze_call};
+use super::{PanelContext, status};
+use crate::app::{JobCommand, StepUnit, Switching};
 use crate::params::{Method, Preset};
 use crate::photo::{EncodingChoice, FULL_SCALE_COUNTS, ReadOptions};
 use crate::truth::sample::{SAMPLES, THREE_LAMPS};
 use crate::view::{ElsewhereKind, Origin, Theme};
-use egui::{Button, RadioButton, Ui};
+use egui::{Button, Checkbox, RadioButton, Response, Ui, Widget};
 
-/// Shows the menu bar and the status line.
-pub fn show(ui: &mut Ui, cx: &mut PanelContext, dock: &mut Dock, dialogs: &mut Dialogs, help: &mut bool) {
-    egui::MenuBar::new().ui(ui, |ui| {
-        ui.menu_button("File", |ui| file(ui, cx, dialogs));
-        ui.menu_button("Edit", |ui| edit(ui, cx));
-        ui.menu_button("View", |ui| view(ui, cx, dock));
-        ui.menu_button("Analyze", |ui| analyze(ui, cx, dialogs));
-        ui.menu_button("Decisions", |ui| decisions(ui, cx));
-        ui.menu_button("Help", |ui| {
-            if item(ui, "All commands\u{2026}", Action::Palette, true) {
-                cx.act(Action::Palette);
-            }
-            if item(ui, "Keyboard and pointer", Action::Help, true) {
-                *help = true;
-            }
-            ui.separator();
-            ui.label(format!("Dichroscope {}", env!("CARGO_PKG_VERSION")));
-            ui.hyperlink_to("Klinker, Shafer & Kanade 1990", "https://doi.org/10.1007/BF00126399");
-        });
-        status::show(ui, cx);
-    });
+/// A way to read the photograph's file, which the menu offers.
+pub struct Reading {
+    /// The encoding.
+    pub encoding: EncodingChoice,
+    /// The encoding's name.
+    pub name: &'static str,
+    tip: &'static str,
 }
 
-/// Shows a row of a menu with the keys of its action. Returns whether the row was chosen.
-fn item(ui: &mut Ui, text: &str, action: Action, enabled: bool) -> bool {
+/// The ways to read a file that declares no encoding or a wrong one.
+pub const READINGS: [Reading; 4] = [
+    Reading {
+        encoding: EncodingChoice::Auto,
+        name: "as the file says",
+        tip: "sRGB for integers and linear for floats that say nothing.",
+    },
+    Reading {
+        encoding: EncodingChoice::Linear,
+        name: "linear light",
+        tip: "The values are proportional to light.",
+    },
+    Reading { encoding: EncodingChoice::Srgb, name: "sRGB", tip: "The values carry sRGB's tone curve." },
+    Reading { encoding: EncodingChoice::Gamma(2.2), name: "gamma 2.2", tip: "linear = value ^ 2.2" },
+];
+
+/// The themes with their names.
+pub const THEMES: [(Theme, &str); 2] = [(Theme::Dark, "Dark"), (Theme::Light, "Light")];
+
+/// The name of a method.
+pub const fn method_name(method: Method) -> &'static str {
+    match method {
+        Method::Refined => "Refined method",
+        Method::Paper => "Paper's method",
+        Method::Phoenix => "Phoenix",
+        Method::TopDown => "Top-down clusters",
+        Method::ByHand => "Skewed T by hand",
+    }
+}
+
+/// Shows the menu bar and the status line.
+pub fn show(ui: &mut Ui, cx: &mut PanelContext, keys: &mut MenuKeys, dock: &mut Dock) {
+    keys.begin();
+    egui::MenuBar::new().ui(ui, |ui| {
+        keys.menu(ui, "File", |ui| file(ui, cx));
+        keys.menu(ui, "Edit", |ui| edit(ui, cx));
+        keys.menu(ui, "View", |ui| view(ui, cx, dock));
+        keys.menu(ui, "Analyze", |ui| analyze(ui, cx));
+        keys.menu(ui, "Decisions", |ui| decisions(ui, cx));
+        keys.menu(ui, "Help", |ui| help(ui, cx));
+        status::show(ui, cx);
+    });
+    keys.close_after_choice(ui.ctx());
+}
+
+/// Shows a row of a menu with the keys of its action. The action is carried out when the row is chosen.
+fn item(ui: &mut Ui, cx: &mut PanelContext, text: &str, action: Action, enabled: bool) -> Response {
     let keys = keys_of(ui.ctx(), action);
-    ui.add_enabled(enabled, Button::new(text).shortcut_text(keys)).clicked()
+    row(ui, cx, Button::new(text).shortcut_text(keys), action, enabled)
+}
+
+/// Shows a row of a menu whose action makes one choice of several. Returns the row.
+fn choice(
+    ui: &mut Ui,
+    cx: &mut PanelContext,
+    text: &str,
+    action: Action,
+    [on, enabled]: [bool; 2],
+) -> Response {
+    row(ui, cx, RadioButton::new(on, text), action, enabled)
+}
+
+/// Shows a widget as a row of a menu, and carries its action out when it is chosen.
+fn row(ui: &mut Ui, cx: &mut PanelContext, widget: impl Widget, action: Action, enabled: bool) -> Response {
+    let row = ui.add_enabled(enabled, widget);
+    #[cfg(test)]
+    tests::note(ui, row.id, action);
+    if row.clicked() {
+        cx.act(action);
+    }
+    row
 }
 
 /// The menu of files, exports and workspaces.
-fn file(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
-    if item(ui, "Open\u{2026}", Action::Open, true) {
-        dialogs.open(Dialog::Open);
+fn file(ui: &mut Ui, cx: &mut PanelContext) {
+    item(ui, cx, "Open\u{2026}", Action::Open, true);
+    submenu(ui, "Open recent", |ui| recent(ui, cx));
+    if cx.state.picture.is_some() {
+        submenu(ui, "Open photographs", |ui| open_photographs(ui, cx));
     }
-    ui.menu_button("Open recent", |ui| {
-        for (path, name) in cx.state.recent.iter().zip(unique_names(&cx.state.recent)) {
-            if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
-                cx.send(JobCommand::Open(Origin::File(path.clone())));
-            }
-        }
-        ui.separator();
-        if ui.add_enabled(!cx.state.recent.is_empty(), Button::new("Forget these")).clicked() {
-            cx.send(ViewCommand::ForgetRecent);
-        }
-    });
-    open_photographs(ui, cx);
-    ui.menu_button("Sample scenes", |ui| {
-        for sample in &SAMPLES {
-            if ui.button(sample.name).on_hover_text(sample.about).clicked() {
-                cx.send(JobCommand::Open(Origin::Sample(sample.name.to_owned())));
-            }
-        }
-        ui.separator();
-        if ui.button(THREE_LAMPS.name).on_hover_text(THREE_LAMPS.about).clicked() {
-            cx.send(JobCommand::open_samples(&THREE_LAMPS));
-        }
-    });
-    ui.menu_button("Read as", |ui| read_as(ui, cx));
-    elsewhere(ui, cx, dialogs);
+    submenu(ui, "Sample scenes", |ui| samples(ui, cx));
+    submenu(ui, "Read as", |ui| read_as(ui, cx));
+    elsewhere(ui, cx);
     ui.separator();
-    if ui.button("Open workspace\u{2026}").clicked() {
-        dialogs.open(Dialog::OpenWorkspace);
-    }
+    item(ui, cx, "Open workspace\u{2026}", Action::OpenWorkspace, true);
     let open = cx.state.picture.is_some();
     // Without a file, saving asks for one.
     let save = if cx.state.workspace_path.is_some() { "Save workspace" } else { "Save workspace\u{2026}" };
-    if item(ui, save, Action::Save, open) {
-        perform::carry_out(Action::Save, cx, dialogs, &mut false);
-    }
-    if ui.add_enabled(open, Button::new("Save workspace as\u{2026}")).clicked() {
-        dialogs.open(Dialog::SaveWorkspace);
-    }
-    if item(ui, "Export\u{2026}", Action::Export, cx.state.shown().is_some()) {
-        dialogs.open(Dialog::Export);
+    item(ui, cx, save, Action::Save, open);
+    item(ui, cx, "Save workspace as\u{2026}", Action::SaveWorkspaceAs, open);
+    item(ui, cx, "Export\u{2026}", Action::Export, cx.state.shown().is_some());
+    ui.separator();
+    item(ui, cx, "Quit", Action::Quit, true);
+}
+
+/// The submenu of photographs that were opened before.
+fn recent(ui: &mut Ui, cx: &mut PanelContext) {
+    for (path, name) in cx.state.recent.iter().zip(unique_names(&cx.state.recent)) {
+        if ui.button(name).on_hover_text(path.display().to_string()).clicked() {
+            cx.send(JobCommand::Open(Origin::File(path.clone())));
+        }
     }
     ui.separator();
-    if item(ui, "Quit", Action::Quit, true) {
-        ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close);
+    item(ui, cx, "Forget these", Action::ForgetRecent, !cx.state.recent.is_empty());
+}
+
+/// The submenu of the bundled scenes.
+fn samples(ui: &mut Ui, cx: &mut PanelContext) {
+    for (index, sample) in SAMPLES.iter().enumerate() {
+        item(ui, cx, sample.name, Action::Sample(index), true).on_hover_text(sample.about);
     }
+    ui.separator();
+    item(ui, cx, THREE_LAMPS.name, Action::ThreeLamps, true).on_hover_text(THREE_LAMPS.about);
 }
 
 /// The rows that open and close pictures that another program made of the photograph.
-fn elsewhere(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
+fn elsewhere(ui: &mut Ui, cx: &mut PanelContext) {
     ui.separator();
     for kind in ElsewhereKind::ALL {
-        let open = Button::new(format!("Open {} of another program\u{2026}", kind.name()));
-        let open = ui.add_enabled(cx.state.picture.is_some(), open);
         let tip = "Holds it against the result: layers, scores and values under the pointer (section 7).";
-        if open.on_hover_text(tip).clicked() {
-            dialogs.open(Dialog::OpenElsewhere(kind));
-        }
+        let text = format!("Open {} of another program\u{2026}", kind.name());
+        item(ui, cx, &text, Action::OpenElsewhere(kind), cx.state.picture.is_some()).on_hover_text(tip);
         let paths = cx.state.elsewhere.as_ref().map(|all| all.paths.clone()).unwrap_or_default();
         let Some(path) = paths.get(kind) else { continue };
-        let close = ui.button(format!("Close {} {}", kind.name(), file_name(path)));
-        if close.on_hover_text(path.display().to_string()).clicked() {
-            cx.send(ViewCommand::CloseElsewhere(kind));
-        }
+        let text = format!("Close {} {}", kind.name(), file_name(path));
+        item(ui, cx, &text, Action::CloseElsewhere(kind), true).on_hover_text(path.display().to_string());
     }
 }
 
@@ -123,52 +161,30 @@ fn file_name(path: &std::path::Path) -> String {
 
 /// The submenu of the photographs that are open.
 fn open_photographs(ui: &mut Ui, cx: &mut PanelContext) {
-    let Some(picture) = cx.state.picture.clone() else { return };
-    ui.menu_button("Open photographs", |ui| {
-        let _ = ui.selectable_label(true, picture.origin.name());
-        for (index, other) in cx.state.others.iter().enumerate() {
-            if ui.selectable_label(false, other.picture.origin.name()).clicked() {
-                cx.commands.push(JobCommand::Switch(Switching::To(index)).into());
-            }
+    let name = cx.state.picture.as_ref().map(|picture| picture.origin.name());
+    let _ = ui.selectable_label(true, name.unwrap_or_default());
+    for (index, other) in cx.state.others.iter().enumerate() {
+        if ui.selectable_label(false, other.picture.origin.name()).clicked() {
+            cx.commands.push(JobCommand::Switch(Switching::To(index)).into());
         }
-        ui.separator();
-        let several = !cx.state.others.is_empty();
-        for (text, switching) in
-            [("Next photograph", Switching::Next), ("Photograph before", Switching::Previous)]
-        {
-            if item(ui, text, Action::Switch(switching), several) {
-                cx.send(JobCommand::Switch(switching));
-            }
-        }
-        let text =
-            if cx.state.compares_photographs { "No longer compare" } else { "Compare with the next beside" };
-        if item(ui, text, Action::ComparePhotographs, several) {
-            cx.send(ViewCommand::ComparePhotographs(!cx.state.compares_photographs));
-        }
-        if item(ui, "Close this photograph", Action::ClosePhotograph, several) {
-            cx.send(JobCommand::ClosePhotograph);
-        }
-    });
+    }
+    ui.separator();
+    let several = !cx.state.others.is_empty();
+    item(ui, cx, "Next photograph", Action::Switch(Switching::Next), several);
+    item(ui, cx, "Photograph before", Action::Switch(Switching::Previous), several);
+    let compares = cx.state.compares_photographs;
+    let text = if compares { "No longer compare" } else { "Compare with the next beside" };
+    item(ui, cx, text, Action::ComparePhotographs, several);
+    item(ui, cx, "Close this photograph", Action::ClosePhotograph, several);
 }
 
 /// The menu of the encodings, for files that declare no encoding or a wrong one.
 fn read_as(ui: &mut Ui, cx: &mut PanelContext) {
+    let open = cx.state.picture.is_some();
     let now = cx.state.picture.as_ref().map_or_else(ReadOptions::default, |picture| picture.reading);
-    for (choice, name, tip) in [
-        (
-            EncodingChoice::Auto,
-            "as the file says",
-            "sRGB for integers and linear for floats that say nothing.",
-        ),
-        (EncodingChoice::Linear, "linear light", "The values are proportional to light."),
-        (EncodingChoice::Srgb, "sRGB", "The values carry sRGB's tone curve."),
-        (EncodingChoice::Gamma(2.2), "gamma 2.2", "linear = value ^ 2.2"),
-    ] {
-        let radio =
-            ui.add_enabled(cx.state.picture.is_some(), RadioButton::new(now.encoding == choice, name));
-        if radio.on_hover_text(tip).clicked() {
-            cx.send(JobCommand::ReadAs(ReadOptions { encoding: choice, ..now }));
-        }
+    for (index, reading) in READINGS.iter().enumerate() {
+        let states = [now.encoding == reading.encoding, open];
+        choice(ui, cx, reading.name, Action::ReadAs(index), states).on_hover_text(reading.tip);
     }
     ui.separator();
     ui.horizontal(|ui| {
@@ -190,53 +206,46 @@ fn read_as(ui: &mut Ui, cx: &mut PanelContext) {
 /// The menu of undo, selection and area.
 fn edit(ui: &mut Ui, cx: &mut PanelContext) {
     let state = cx.state;
-    let marked = state.document.selection.marked.as_ref();
-    if item(ui, "Undo", Action::Undo, state.history.can_undo()) {
-        cx.send(Edit::Undo);
-    }
-    if item(ui, "Redo", Action::Redo, state.history.can_redo()) {
-        cx.send(Edit::Redo);
-    }
+    let has_marked = state.document.selection.marked.is_some();
+    item(ui, cx, "Undo", Action::Undo, state.history.can_undo());
+    item(ui, cx, "Redo", Action::Redo, state.history.can_redo());
     ui.separator();
-    if item(ui, "Invert marked", Action::Invert, state.picture.is_some()) {
-        cx.send(Edit::InvertMarked);
-    }
-    let can_keep = marked.is_some() && state.document.selection.named.active.is_none();
-    if item(ui, "Keep as a named mark", Action::KeepMark, can_keep) {
-        cx.send(Edit::NamedMark(NamedMarkEdit::Keep));
-    }
-    if item(ui, "Select nothing", Action::Escape, !state.document.selection.is_empty()) {
-        cx.send(Edit::ClearSelection);
-    }
+    item(ui, cx, "Invert marked", Action::Invert, state.picture.is_some());
+    let can_keep = has_marked && state.document.selection.named.active.is_none();
+    item(ui, cx, "Keep as a named mark", Action::KeepMark, can_keep);
+    item(ui, cx, "Select nothing", Action::Escape, !state.document.selection.is_empty());
     ui.separator();
-    let restrict = ui.add_enabled(marked.is_some(), Button::new("Analyze only the marked pixels"));
-    if restrict.on_hover_text("Pixels outside are left out of every stage and stay as they are.").clicked() {
-        cx.send(Edit::RestrictTo(marked.cloned()));
-    }
-    if item(ui, "Fit skewed T to the marked", Action::FitSkewedT, marked.is_some()) {
-        cx.act(Action::FitSkewedT);
-    }
-    if ui.add_enabled(state.document.area.is_some(), Button::new("Analyze the whole picture")).clicked() {
-        cx.send(Edit::RestrictTo(None));
-    }
+    item(ui, cx, "Analyze only the marked pixels", Action::AnalyzeMarked, has_marked)
+        .on_hover_text("Pixels outside are left out of every stage and stay as they are.");
+    item(ui, cx, "Fit skewed T to the marked", Action::FitSkewedT, has_marked);
+    item(ui, cx, "Analyze the whole picture", Action::AnalyzeAll, state.document.area.is_some());
 }
 
-/// The menu of panels and themes.
+/// The menu of panels, zoom and themes.
 fn view(ui: &mut Ui, cx: &mut PanelContext, dock: &mut Dock) {
     for pane in Pane::ALL {
         let mut visible = dock.is_visible(pane);
-        if ui.checkbox(&mut visible, pane.title()).changed() {
+        let checkbox = ui.add(Checkbox::new(&mut visible, pane.title()));
+        #[cfg(test)]
+        tests::note(ui, checkbox.id, Action::Show(pane));
+        if checkbox.changed() {
             dock.set_visible(pane, visible);
         }
     }
-    if ui.button("Arrange as at first").clicked() {
-        dock.reset();
+    item(ui, cx, "Arrange as at first", Action::ShowAll, true);
+    ui.separator();
+    let open = cx.state.picture.is_some();
+    for (text, action) in [
+        ("Zoom in", Action::View(ViewStep::ZoomIn)),
+        ("Zoom out", Action::View(ViewStep::ZoomOut)),
+        ("Zoom to fit", Action::Fit),
+        ("Zoom to 100 %", Action::OneToOne),
+    ] {
+        item(ui, cx, text, action, open);
     }
     ui.separator();
-    for (theme, name) in [(Theme::Dark, "Dark"), (Theme::Light, "Light")] {
-        if ui.radio(cx.state.view.theme == theme, name).clicked() {
-            cx.send(ViewCommand::Theme(theme));
-        }
+    for (theme, name) in THEMES {
+        choice(ui, cx, name, Action::UseTheme(theme), [cx.state.view.theme == theme, true]);
     }
 }
 
@@ -250,9 +259,7 @@ fn decisions(ui: &mut Ui, cx: &mut PanelContext) {
     let play = if playing.is_some() { "Pause" } else { "Play" };
     let back = if playing == Some(Back) { "Pause" } else { "Play backwards" };
     let mut row = |ui: &mut Ui, text: &str, action: DebugAction, enabled: bool| {
-        if item(ui, text, Action::Debug(action), enabled) {
-            move_cursor(action, cx);
-        }
+        item(ui, cx, text, Action::Debug(action), enabled);
     };
     row(ui, record, DebugAction::Record, true);
     ui.separator();
@@ -276,48 +283,111 @@ fn decisions(ui: &mut Ui, cx: &mut PanelContext) {
 }
 
 /// The menu of methods, presets, parameter files and pinning.
-fn analyze(ui: &mut Ui, cx: &mut PanelContext, dialogs: &mut Dialogs) {
+fn analyze(ui: &mut Ui, cx: &mut PanelContext) {
     let method = cx.state.document.params.method;
-    for choice in Method::ALL {
-        let name = match choice {
-            Method::Refined => "Refined method",
-            Method::Paper => "Paper's method",
-            Method::Phoenix => "Phoenix",
-            Method::TopDown => "Top-down clusters",
-            Method::ByHand => "Skewed T by hand",
-        };
-        if ui.radio(method == choice, name).on_hover_text(choice.meaning()).clicked() {
-            cx.send(Edit::SetMethod(choice));
-        }
+    for other in Method::ALL {
+        choice(ui, cx, method_name(other), Action::Method(other), [method == other, true])
+            .on_hover_text(other.meaning());
     }
-    ui.menu_button("Presets of table 6", |ui| {
+    submenu(ui, "Presets of table 6", |ui| {
         for preset in Preset::ALL {
             let tip = "The paper's method with the numbers of this column of table 6 (section 7.3).";
-            if ui.button(preset.title()).on_hover_text(tip).clicked() {
-                cx.send(Edit::SetParams(Box::new(preset.params())));
-            }
+            item(ui, cx, preset.title(), Action::Preset(preset), true).on_hover_text(tip);
         }
     });
-    if ui.button("Load parameters\u{2026}").clicked() {
-        dialogs.open(Dialog::LoadParameters);
-    }
-    if ui.button("Save parameters\u{2026}").clicked() {
-        dialogs.open(Dialog::SaveParameters);
-    }
+    item(ui, cx, "Load parameters\u{2026}", Action::LoadParameters, true);
+    item(ui, cx, "Save parameters\u{2026}", Action::SaveParameters, true);
     ui.separator();
     let pinned = cx.state.pinned.is_some();
     let text = if pinned { "Let the pinned result go" } else { "Pin this result to compare with" };
-    if item(ui, text, Action::Pin, cx.state.newest.is_some()) {
-        cx.send(ViewCommand::Pin(!pinned));
-    }
-    if item(ui, "Show the other of the two", Action::Swap, pinned) {
-        cx.send(ViewCommand::ShowPinned(!cx.state.view.show_pinned));
-    }
+    item(ui, cx, text, Action::Pin, cx.state.newest.is_some());
+    item(ui, cx, "Show the other of the two", Action::Swap, pinned);
     ui.separator();
-    let copy = ui.add_enabled(cx.state.picture.is_some(), Button::new("Copy as command line"));
-    if copy.on_hover_text("The `dichroscope analyze` call that reproduces what is on the screen.").clicked() {
-        ui.ctx().copy_text(analyze_call(cx.state));
-        let text = "the command line is in the clipboard".to_owned();
-        cx.send(ViewCommand::Notify(Severity::Done, text));
+    item(ui, cx, "Copy as command line", Action::CopyCommandLine, cx.state.picture.is_some())
+        .on_hover_text("The `dichroscope analyze` call that reproduces what is on the screen.");
+}
+
+/// The menu of the lists of commands and keys, and what the program is.
+fn help(ui: &mut Ui, cx: &mut PanelContext) {
+    item(ui, cx, "All commands\u{2026}", Action::Palette, true);
+    item(ui, cx, "Keyboard and pointer", Action::Help, true);
+    ui.separator();
+    ui.label(format!("Dichroscope {}", env!("CARGO_PKG_VERSION")));
+    ui.hyperlink_to("Klinker, Shafer & Kanade 1990", "https://doi.org/10.1007/BF00126399");
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::State;
+    use crate::gui::command_palette::listed_actions;
+    use crate::gui::theme::ThemeColors;
+    use egui::accesskit::Role;
+    use egui::{Context, Id};
+
+    /// Notes the action of a row, by the row's widget.
+    pub fn note(ui: &Ui, row: Id, action: Action) {
+        ui.data_mut(|data| data.get_temp_mut_or_default::<Vec<(Id, Action)>>(Id::NULL).push((row, action)));
+    }
+
+    /// The actions of the rows that menus show, and the names of rows that have no action.
+    fn shown_rows(state: &State) -> (Vec<Action>, Vec<String>) {
+        let (ctx, palette) = (Context::default(), ThemeColors::of(Theme::Dark));
+        let (mut commands, mut actions, mut dock) = (Vec::new(), Vec::new(), Dock::default());
+        let mut unnamed = Vec::new();
+        let _ = ctx.run_ui(egui::RawInput::default(), |ui| {
+            let mut cx = PanelContext {
+                state,
+                palette: &palette,
+                gpu: None,
+                is_export: false,
+                commands: &mut commands,
+                actions: &mut actions,
+                hovers: false,
+            };
+            file(ui, &mut cx);
+            recent(ui, &mut cx);
+            samples(ui, &mut cx);
+            read_as(ui, &mut cx);
+            open_photographs(ui, &mut cx);
+            edit(ui, &mut cx);
+            view(ui, &mut cx, &mut dock);
+            analyze(ui, &mut cx);
+            for preset in Preset::ALL {
+                item(ui, &mut cx, preset.title(), Action::Preset(preset), true);
+            }
+            decisions(ui, &mut cx);
+            help(ui, &mut cx);
+            let rows = noted(ui.ctx());
+            let roles = [Some(Role::Button), Some(Role::CheckBox), Some(Role::RadioButton)];
+            unnamed = ui.ctx().viewport(|viewport| {
+                let widgets = &viewport.this_pass.widgets;
+                let of_layer = widgets.layers().flat_map(|(_, rects)| rects.iter().map(|rect| rect.id));
+                let infos = of_layer.filter_map(|id| Some((id, widgets.info(id)?)));
+                let without = infos
+                    .filter(|(id, info)| roles.contains(&info.role) && rows.iter().all(|(row, _)| row != id));
+                without.map(|(_, info)| info.label.clone().unwrap_or_default()).collect()
+            });
+        });
+        (noted(&ctx).into_iter().map(|(_, action)| action).collect(), unnamed)
+    }
+
+    fn noted(ctx: &Context) -> Vec<(Id, Action)> {
+        ctx.data(|data| data.get_temp(Id::NULL)).unwrap_or_default()
+    }
+
+    #[test]
+    fn the_palette_lists_every_row_of_the_menus() {
+        let (shown, unnamed) = shown_rows(&State::default());
+        let listed = listed_actions();
+        for action in &shown {
+            let opens_lists = matches!(action, Action::Palette | Action::Menus);
+            assert!(opens_lists || listed.contains(action), "{action:?} is in a menu and not in the palette");
+        }
+        // Submenus, and the names of photographs.
+        let submenus = ["Open recent", "Sample scenes", "Read as", "Presets of table 6", ""];
+        let forgotten: Vec<_> = unnamed.iter().filter(|name| !submenus.contains(&name.as_str())).collect();
+        assert!(forgotten.is_empty(), "rows without an action: {forgotten:?}");
+        assert!(shown.len() > 60, "{}", shown.len());
     }
 }

@@ -3,6 +3,7 @@
 //! A panel reads the state from a [`PanelContext`] and sends commands to the application. A panel keeps only its
 //! uploads to the graphics device, and the gesture in progress.
 
+mod about;
 mod action;
 mod app;
 mod background_value;
@@ -25,6 +26,7 @@ mod inspector_panel;
 mod instant_key;
 mod keyboard_focus;
 mod menu;
+mod menu_keys;
 mod move_cursor;
 mod named_marks_list;
 mod notices;

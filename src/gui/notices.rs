@@ -1,17 +1,19 @@
-//! Notices about finished work, warnings and errors, in a strip of their own below the panels, so that no notice covers a control.
+//! Notices about finished work, warnings and errors, over the lower part of the views, so that no panel moves when a notice comes or goes.
 
 use super::PanelContext;
 use super::theme::SMALL_PT;
 use crate::app::{Notice, Severity, ViewCommand};
-use egui::{Frame, Margin, RichText, Ui};
+use egui::{Align2, Area, Frame, Id, Margin, Order, RichText, Ui, pos2};
 use std::time::Duration;
 
+/// Width of the notices, points.
+const WIDTH_PT: f32 = 560.0;
 /// Largest number of notices shown at once; of more, the newest are shown.
 const MOST_NOTICES: usize = 4;
 /// Time after which the notice of a success goes by itself, seconds. Warnings and errors stay until they are dismissed.
 const SUCCESS_SECONDS: f64 = 6.0;
 
-/// The strip of notices.
+/// The notices that are shown.
 #[derive(Default)]
 pub struct Notices {
     /// The notices of successes with the time at which each was first shown, seconds.
@@ -19,25 +21,30 @@ pub struct Notices {
 }
 
 impl Notices {
-    /// Shows the strip at the lower border of `ui`, if there are notices.
-    pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
+    /// Shows the notices over the panels, in the middle above `floor`, a height in points. The panels stay where they are.
+    pub fn show(&mut self, ui: &Ui, cx: &mut PanelContext, floor: f32) {
         let state = cx.state;
         if state.notices.is_empty() {
             self.shown_since.clear();
             return;
         }
         self.let_successes_go(ui, cx);
-        let frame = Frame::new().fill(cx.palette.panel).inner_margin(Margin::symmetric(8, 3));
-        egui::Panel::bottom("notices").frame(frame).resizable(false).show(ui, |ui| {
-            let hidden = state.notices.len().saturating_sub(MOST_NOTICES);
-            for notice in state.notices.iter().skip(hidden) {
-                row(ui, cx, notice);
-            }
-            if hidden > 0 {
-                ui.label(
-                    RichText::new(format!("{hidden} earlier")).size(SMALL_PT).color(cx.palette.secondary),
-                );
-            }
+        let room = ui.ctx().content_rect();
+        let place = pos2(room.center().x, floor - 8.0);
+        let area = Area::new(Id::unique("notices")).order(Order::Foreground).pivot(Align2::CENTER_BOTTOM);
+        let frame = Frame::popup(ui.style()).fill(cx.palette.panel).inner_margin(Margin::symmetric(8, 5));
+        area.fixed_pos(place).constrain(true).show(ui.ctx(), |ui| {
+            frame.show(ui, |ui| {
+                ui.set_width(WIDTH_PT.min(room.width() - 40.0));
+                let hidden = state.notices.len().saturating_sub(MOST_NOTICES);
+                for notice in state.notices.iter().skip(hidden) {
+                    row(ui, cx, notice);
+                }
+                if hidden > 0 {
+                    let text = format!("{hidden} earlier");
+                    ui.label(RichText::new(text).size(SMALL_PT).color(cx.palette.secondary));
+                }
+            });
         });
     }
 

@@ -1,5 +1,6 @@
 //! Outlines that a person draws over the points of the color space or of the plane: rectangle, lasso, polygon.
 
+use super::keyboard_focus::is_keyboard_owned;
 use crate::app::Combine;
 use crate::view::Tool;
 use egui::{Color32, Key, Painter, PointerButton, Pos2, Rect, Response, Shape, Stroke, Ui};
@@ -57,7 +58,7 @@ impl Outline {
 
     /// Adds a corner to a polygon at a click; returns the polygon when it is closed.
     fn click(&mut self, ui: &Ui, response: &Response) -> Option<Vec<Pos2>> {
-        let enter = ui.input(|input| input.key_pressed(Key::Enter));
+        let enter = !is_keyboard_owned(ui.ctx()) && ui.input(|input| input.key_pressed(Key::Enter));
         let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
         let near = |a: Pos2, b: Option<&Pos2>| b.is_some_and(|b| a.distance(*b) < CLOSE_PT);
         let closes = clicked.is_some_and(|at| self.corners.len() > 2 && near(at, self.corners.first()));

@@ -2,7 +2,8 @@
 
 use super::action::Action;
 use super::theme::ThemeColors;
-use crate::app::{Command, State};
+use crate::app::{Command, State, ViewCommand};
+use crate::view::Item;
 
 /// The argument of every panel; each frame has a new one.
 pub struct PanelContext<'a> {
@@ -18,12 +19,23 @@ pub struct PanelContext<'a> {
     pub commands: &'a mut Vec<Command>,
     /// The actions of the window that panels have asked for in this frame: dialogs to open, panels to show.
     pub actions: &'a mut Vec<Action>,
+    /// Whether an item of a panel is under the pointer in this frame.
+    pub hovers: bool,
 }
 
 impl PanelContext<'_> {
     /// Sends a command, which is applied after the frame.
     pub fn send(&mut self, command: impl Into<Command>) {
         self.commands.push(command.into());
+    }
+
+    /// Tells that an item of the panel is under the pointer. Panels call this in every frame in which it is so: an item that no panel names
+    /// is hovered no more.
+    pub fn hover(&mut self, item: Item) {
+        self.hovers = true;
+        if self.state.hover != Some(item) {
+            self.send(ViewCommand::Hover(Some(item)));
+        }
     }
 
     /// Asks for an action of the window, which is carried out in the next frame.

@@ -95,10 +95,12 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
     let gesture = Gesture::Parameter(parameter);
     // Dragging and typing start from the value in force.
     let mut value = setting.value().or(used).filter(|value| value.is_finite()).unwrap_or(spec.paper);
-    let tip = format!(
-        "{}: {}.\nPaper, table 6: {} {}. Double-click: back to the default. ({})",
-        spec.name, spec.meaning, spec.paper, spec.unit, spec.section
-    );
+    let in_paper = if spec.is_in_paper() {
+        format!("Paper, table 6: {} {} ({}).", spec.paper, spec.unit, spec.section)
+    } else {
+        format!("The paper has no such parameter; {} {} is its way.", spec.paper, spec.unit)
+    };
+    let tip = format!("{}: {}.\n{in_paper} Double-click: back to the default.", spec.name, spec.meaning);
     let columns = Columns::of(ui);
     ui.scope(|ui| {
         // The button `auto` is as narrow as its cell and stays in one line.

@@ -1,17 +1,24 @@
 //! Carries out actions that do not belong to one panel.
 
 use super::action::Action;
+use super::menu::READINGS;
 use super::move_cursor::move_cursor;
 use super::{PanelContext, files};
 use crate::app::{Combine, Edit, ExportKind, JobCommand, NamedMarkEdit, Severity, ViewCommand};
-use crate::raster::RegionId;
-use crate::view::{Item, Tool};
+use crate::photo::ReadOptions;
+use crate::raster::{Mask, RegionId};
+use crate::truth::sample::{SAMPLES, THREE_LAMPS};
+use crate::view::{Item, Origin, Tool};
+use std::sync::Arc;
 
 /// Carries out an action: sends its command, or opens a dialog or the list of keys (`help`).
 pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dialogs, help: &mut bool) {
     match action {
         Action::Open => dialogs.open(files::Dialog::Open),
         Action::OpenWorkspace => dialogs.open(files::Dialog::OpenWorkspace),
+        Action::SaveWorkspaceAs => dialogs.open(files::Dialog::SaveWorkspace),
+        Action::LoadParameters => dialogs.open(files::Dialog::LoadParameters),
+        Action::SaveParameters => dialogs.open(files::Dialog::SaveParameters),
         Action::OpenElsewhere(kind) => dialogs.open(files::Dialog::OpenElsewhere(kind)),
         Action::CloseElsewhere(kind) => cx.send(ViewCommand::CloseElsewhere(kind)),
         Action::Export => dialogs.open(files::Dialog::Export),
@@ -21,19 +28,42 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
             Some(path) => cx.send(JobCommand::Export(ExportKind::Workspace.to(path))),
             None => dialogs.open(files::Dialog::SaveWorkspace),
         },
-        // The window closes itself and arranges its panels: an action has no window.
-        Action::Quit | Action::Show(_) | Action::ShowAll | Action::Palette => {}
+        // The window closes itself, arranges its panels, knows where they are and has the clipboard: an action has no window.
+        Action::Quit
+        | Action::CopyCommandLine
+        | Action::Show(_)
+        | Action::ShowAll
+        | Action::Palette
+        | Action::Menus
+        | Action::View(_) => {}
         Action::Help => *help = !*help,
         Action::Switch(switching) => cx.send(JobCommand::Switch(switching)),
         Action::ClosePhotograph => cx.send(JobCommand::ClosePhotograph),
         Action::ComparePhotographs => {
             cx.send(ViewCommand::ComparePhotographs(!cx.state.compares_photographs));
         }
+        Action::Sample(index) => {
+            let sample = SAMPLES.get(index).unwrap_or(&SAMPLES[0]);
+            cx.send(JobCommand::Open(Origin::Sample(sample.name.to_owned())));
+        }
+        Action::ThreeLamps => cx.send(JobCommand::open_samples(&THREE_LAMPS)),
+        Action::ReadAs(index) => {
+            if let (Some(picture), Some(reading)) = (&cx.state.picture, READINGS.get(index)) {
+                cx.send(JobCommand::ReadAs(ReadOptions { encoding: reading.encoding, ..picture.reading }));
+            }
+        }
+        Action::ForgetRecent => cx.send(ViewCommand::ForgetRecent),
         Action::Undo => cx.send(Edit::Undo),
         Action::Redo => cx.send(Edit::Redo),
         Action::Invert => cx.send(Edit::InvertMarked),
         Action::MarkRegion => mark_region(cx),
-        Action::FitSkewedT => fit_skewed_t(cx),
+        Action::FitSkewedT => with_marked(cx, "a skewed T is fitted to them", Edit::FitSkewedT),
+        Action::AnalyzeMarked => {
+            with_marked(cx, "only they are analyzed", |marked| Edit::RestrictTo(Some(marked)));
+        }
+        Action::AnalyzeAll => cx.send(Edit::RestrictTo(None)),
+        Action::Method(method) => cx.send(Edit::SetMethod(method)),
+        Action::Preset(preset) => cx.send(Edit::SetParams(Box::new(preset.params()))),
         Action::KeepMark => cx.send(Edit::NamedMark(NamedMarkEdit::Keep)),
         Action::Escape => {
             if *help {
@@ -49,6 +79,7 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
             use crate::view::Theme::{Dark, Light};
             cx.send(ViewCommand::Theme(if cx.state.view.theme == Dark { Light } else { Dark }));
         }
+        Action::UseTheme(theme) => cx.send(ViewCommand::Theme(theme)),
         Action::Debug(action) => move_cursor(action, cx),
         Action::Layer(_)
         | Action::Tool(_)
@@ -86,15 +117,15 @@ fn change_image_view(action: Action, cx: &mut PanelContext) {
 fn mark_region(cx: &mut PanelContext) {
     let (Some(region), Some(shown)) = (cx.state.selected_region(), cx.state.shown()) else { return };
     let mask = shown.labels().map(|&label| label == region.get());
-    cx.send(Edit::Mark(std::sync::Arc::new(mask), Combine::Replace, None));
+    cx.send(Edit::Mark(Arc::new(mask), Combine::Replace, None));
 }
 
-/// Fits a skewed T to the marked pixels, or tells that none are marked.
-fn fit_skewed_t(cx: &mut PanelContext) {
+/// Sends an edit of the marked pixels, or tells that none are marked. `what`: what is done with them, as a clause.
+fn with_marked(cx: &mut PanelContext, what: &str, edit: impl FnOnce(Arc<Mask>) -> Edit) {
     if let Some(marked) = cx.state.document.selection.marked.clone() {
-        cx.send(Edit::FitSkewedT(marked));
+        cx.send(edit(marked));
     } else {
-        let text = "mark the pixels of one object first: a skewed T is fitted to them".to_owned();
+        let text = format!("mark the pixels of one object first: {what}");
         cx.send(ViewCommand::Notify(Severity::Warning, text));
     }
 }

@@ -8,7 +8,7 @@ pub mod testing;
 
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
-use crate::app::{Edit, ViewCommand};
+use crate::app::Edit;
 use crate::baseline::MarkedSkewedT;
 use crate::gui::outline::{Outline, combine_by_keys};
 use crate::params::Method;
@@ -47,7 +47,6 @@ pub struct PlanePanel {
     /// Whether a person has panned or zoomed. Until then, the chart is fitted to the plane at every change.
     is_moved: bool,
     point_mesh: Option<PointMesh>,
-    is_hovering: bool,
     /// The outline that is being drawn.
     outline: Outline,
 }
@@ -168,9 +167,8 @@ impl PlanePanel {
         let found = pointer
             .and_then(|at| plane.nearest(chart.oblique(at, rect), HOVER_RADIUS_PT * chart.counts_per_pt));
         let hover = found.map(|point| Item::Pixel(point.pixel));
-        let was_hovering = std::mem::replace(&mut self.is_hovering, pointer.is_some());
-        if (self.is_hovering || was_hovering) && cx.state.hover != hover {
-            cx.send(ViewCommand::Hover(hover));
+        if let Some(item) = hover {
+            cx.hover(item);
         }
         if let Some(item) = hover.filter(|_| response.clicked() && !response.double_clicked()) {
             cx.send(Edit::Select(Some(item)));

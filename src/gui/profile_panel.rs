@@ -65,7 +65,9 @@ impl ProfilePanel {
             _ => None,
         };
         let ends = profile_ends(cx.state.view.profile, &picture, selected.or(hovered));
-        let shown = cx.state.shown();
+        // At the debugger's cursor nothing is split yet.
+        let is_split = cx.state.followed().is_none();
+        let shown = cx.state.shown().filter(|_| is_split);
         let generation = shown.map_or(0, |shown| shown.generation);
         let key = (generation, ends.map(|end| end.map(|v| (v * 100.0) as i64)));
         if self.samples.as_ref().is_none_or(|(known, _)| *known != key) {
@@ -153,8 +155,8 @@ fn plot(
         // with the pointer.
         let fixed = matches!(cx.state.view.profile, ProfileLine::Between(..))
             || matches!(cx.state.document.selection.item, Some(Item::Pixel(_)));
-        if fixed && cx.state.hover != Some(Item::Pixel(sample.pixel)) {
-            cx.send(ViewCommand::Hover(Some(Item::Pixel(sample.pixel))));
+        if fixed {
+            cx.hover(Item::Pixel(sample.pixel));
         }
     }
 }

@@ -5,7 +5,7 @@ mod light_summary;
 
 use super::theme::{SMALL_PT, ThemeColors};
 use super::{PanelContext, context_menu, widgets};
-use crate::app::{Edit, ViewCommand};
+use crate::app::Edit;
 use crate::intrinsic::{HighlightBranch, RegionReflection};
 use crate::view::{Item, ResultSnapshot};
 use egui::{Align, Button, Color32, Label, Layout, RichText, Sense, Ui};
@@ -162,9 +162,8 @@ impl RegionsPanel {
                     }
                 });
             });
-        let is_over_panel = ui.rect_contains_pointer(ui.max_rect());
-        if is_over_panel && hovered != cx.state.hover {
-            cx.send(ViewCommand::Hover(hovered));
+        if let Some(item) = hovered {
+            cx.hover(item);
         }
     }
 

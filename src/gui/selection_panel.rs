@@ -50,6 +50,10 @@ impl SelectionPanel {
                 return widgets::placeholder(ui, cx.palette, hint);
             }
         };
+        let subject = match state.followed() {
+            Some(_) => format!("{subject}, at the end of the analysis"),
+            None => subject,
+        };
         let mask_address = marked.as_ref().map(|mask: &Arc<Mask>| Arc::as_ptr(mask) as usize);
         let key = (shown.generation, mask_address, item.filter(|_| marked.is_none()));
         let synchronous = shown.labels().len() <= SYNCHRONOUS_PX;

@@ -6,7 +6,8 @@ mod shortcut;
 pub use debug::{KeyListeners, SpaceTap};
 
 use super::PanelContext;
-use super::action::{Action, DebugAction};
+use super::action::{Action, DebugAction, ViewStep};
+use super::keyboard_focus::is_keyboard_owned;
 use super::theme::SMALL_PT;
 use crate::app::Switching;
 use crate::view::{Layer, Tool};
@@ -30,6 +31,11 @@ const fn key_with_command(
 
 /// Shift and Ctrl, on a Mac Shift and Command.
 const SHIFT_COMMAND: Modifiers = Modifiers::COMMAND.plus(Modifiers::SHIFT);
+
+/// A key that moves the picture. The arrow keys with fewer modifiers step the debugger.
+const fn pan(key: Key, step: ViewStep, description: &'static str) -> Shortcut {
+    Shortcut::new("Image", SHIFT_COMMAND, key, Action::View(step), description)
+}
 
 /// All keys, in the order in which the help lists them.
 fn all_shortcuts() -> impl Iterator<Item = &'static Shortcut> {
@@ -85,8 +91,15 @@ const GENERAL: &[Shortcut] = &[
     key_alone("Image", Key::Num8, Action::Layer(Layer::Body), "Body reflection"),
     key_alone("Image", Key::Num9, Action::Layer(Layer::Surface), "Surface reflection"),
     key_alone("Image", Key::Num0, Action::Layer(Layer::Noise), "Noise"),
-    key_alone("Image", Key::F, Action::Fit, "Fit the whole picture"),
-    key_alone("Image", Key::Z, Action::OneToOne, "One point a pixel"),
+    key_alone("Image", Key::Plus, Action::View(ViewStep::ZoomIn), "Zoom in"),
+    key_alone("Image", Key::Equals, Action::View(ViewStep::ZoomIn), "Zoom in"),
+    key_alone("Image", Key::Minus, Action::View(ViewStep::ZoomOut), "Zoom out"),
+    key_alone("Image", Key::F, Action::Fit, "Zoom to fit: the whole picture"),
+    key_alone("Image", Key::Z, Action::OneToOne, "Zoom to 100 %: one point a pixel"),
+    pan(Key::ArrowLeft, ViewStep::Left, "Pan to the left"),
+    pan(Key::ArrowRight, ViewStep::Right, "Pan to the right"),
+    pan(Key::ArrowUp, ViewStep::Up, "Pan to the top"),
+    pan(Key::ArrowDown, ViewStep::Down, "Pan to the bottom"),
     key_alone("Image", Key::O, Action::Outline, "Outlines or fills"),
     key_alone("Image", Key::H, Action::LockReadout, "Lock the readout to the selected pixel"),
     key_alone("Tools", Key::V, Action::Tool(Tool::Pointer), "Pointer: click selects, drag pans"),
@@ -104,6 +117,7 @@ const GENERAL: &[Shortcut] = &[
     key_alone("Compare", Key::K, Action::Pin, "Pin the result, or unpin it"),
     key_alone("Compare", Key::A, Action::Swap, "A/B: pinned or newest result"),
     key_with_command("Window", Key::P, Action::Palette, "All commands by name"),
+    key_alone("Window", Key::F10, Action::Menus, "The menus; Alt and a first letter opens one"),
     key_alone("Window", Key::T, Action::Theme, "Light or dark theme"),
     key_alone("Window", Key::Questionmark, Action::Help, "This list"),
     key_alone("Window", Key::F1, Action::Help, "This list"),
@@ -117,6 +131,12 @@ const THREE_COLUMNS_PT: f32 = 1000.0;
 
 /// Width of the column of keys in the help, points.
 const KEYS_PT: f32 = 130.0;
+
+/// Width of the widest column of the help, points.
+const WIDEST_COLUMN_PT: f32 = 330.0;
+
+/// Distance between the columns of the help, points.
+const GAP_PT: f32 = 12.0;
 
 /// The effects of the pointer, which the help lists beside the keys.
 const POINTER_HELP: &[(&str, &str)] = &[
@@ -146,13 +166,15 @@ fn keys_as_text(ctx: &egui::Context, keys: KeyboardShortcut) -> String {
         // The bundled fonts have these arrows, and not those of egui's symbols.
         Key::ArrowLeft => "\u{2190}",
         Key::ArrowRight => "\u{2192}",
+        Key::ArrowUp => "\u{2191}",
+        Key::ArrowDown => "\u{2193}",
         key => key.symbol_or_name(),
     };
     text.strip_suffix(keys.logical_key.name())
         .map_or_else(|| text.clone(), |modifiers| format!("{modifiers}{symbol}"))
 }
 
-/// The actions whose keys were pressed; none while a text is being edited. `escape_is_action`: whether Escape is an
+/// The actions whose keys were pressed; none while a text is being edited or a menu is open. `escape_is_action`: whether Escape is an
 /// action; otherwise Escape closes a dialog or a menu.
 pub fn pressed(
     ctx: &egui::Context,
@@ -160,7 +182,7 @@ pub fn pressed(
     listeners: KeyListeners,
     space_tap: &mut SpaceTap,
 ) -> Vec<Action> {
-    if ctx.text_edit_focused() {
+    if is_keyboard_owned(ctx) {
         return Vec::new();
     }
     let active: Vec<&Shortcut> = all_shortcuts()
@@ -170,19 +192,17 @@ pub fn pressed(
     let (space_shortcuts, keys): (Vec<&Shortcut>, Vec<&Shortcut>) =
         active.into_iter().partition(|shortcut| shortcut.keys.logical_key == Key::Space);
     let released = space_tap.released(ctx, !space_shortcuts.is_empty());
-    let mut actions: Vec<Action> = ctx.input_mut(|input| {
-        keys.iter()
-            .filter(|shortcut| input.consume_shortcut(&shortcut.keys))
-            .map(|shortcut| shortcut.action)
-            .collect()
-    });
-    actions.extend(ctx.input_mut(|input| actions_of_physical_digits(&mut input.events, &keys)));
+    let mut actions = ctx.input_mut(|input| actions_of_physical_digits(&mut input.events, &keys));
+    actions.extend(ctx.input_mut(|input| {
+        let is_pressed = |shortcut: &&&Shortcut| input.consume_shortcut(&shortcut.keys);
+        keys.iter().filter(is_pressed).map(|shortcut| shortcut.action).collect::<Vec<_>>()
+    }));
     actions.extend(released.map(|direction| Action::Debug(DebugAction::Play(direction))));
     actions
 }
 
-/// Takes the events of digit keys whose key cap shows something else, as the keys 4 and 6 of a French keyboard do, out of
-/// `events`, and returns their actions. The keys that the keyboard's layout names were consumed before.
+/// Takes the events of digit keys out of `events`, and returns their actions. The place of a key decides, as the key cap may show
+/// something else: the key 6 of a French keyboard is a minus sign, which is another action's key elsewhere.
 fn actions_of_physical_digits(events: &mut Vec<egui::Event>, shortcuts: &[&Shortcut]) -> Vec<Action> {
     let mut actions = Vec::new();
     events.retain(|event| {
@@ -211,7 +231,7 @@ pub fn show_help(ui: &mut Ui, cx: &PanelContext, open: &mut bool) {
         &[&["File", "Edit", "Image", "Compare"], &["Window", "Decisions", "Tools", "Pointer"]]
     };
     // The window with its margins and its bar is never wider than the room.
-    let column_pt = ((room.x - 60.0) / columns.len() as f32 - 12.0).max(60.0);
+    let column_pt = ((room.x - 60.0) / columns.len() as f32 - GAP_PT).clamp(60.0, WIDEST_COLUMN_PT);
     let shown = egui::Window::new("Keyboard and pointer")
         .open(open)
         .collapsible(false)
@@ -222,8 +242,9 @@ pub fn show_help(ui: &mut Ui, cx: &PanelContext, open: &mut bool) {
         .show(&ctx, |ui| {
             ui.horizontal_top(|ui| {
                 for groups in columns {
-                    ui.vertical(|ui| groups.iter().for_each(|group| show_group(ui, cx, group, column_pt)));
-                    ui.add_space(12.0);
+                    of_width(ui, column_pt, |ui| {
+                        groups.iter().for_each(|group| show_group(ui, cx, group, column_pt));
+                    });
                 }
             });
         });
@@ -242,12 +263,25 @@ fn show_group(ui: &mut Ui, cx: &PanelContext, group: &str, column_pt: f32) {
         let of_group = all_shortcuts().filter(|shortcut| shortcut.group == group);
         of_group.map(|shortcut| (keys_as_text(ui.ctx(), shortcut.keys), shortcut.description)).collect()
     };
-    let description_pt = (column_pt - KEYS_PT).max(40.0);
-    egui::Grid::new(group).num_columns(2).spacing([12.0, 3.0]).max_col_width(description_pt).show(ui, |ui| {
-        for (keys, description) in rows {
-            ui.label(RichText::new(keys).size(SMALL_PT).color(cx.palette.accent));
-            ui.add(egui::Label::new(description).wrap());
-            ui.end_row();
-        }
+    // Widths that do not depend on an earlier frame: the list is whole in its first frame.
+    ui.spacing_mut().item_spacing = egui::vec2(GAP_PT, 3.0);
+    let keys_pt = KEYS_PT.min(0.5 * column_pt);
+    for (keys, description) in rows {
+        ui.horizontal_top(|ui| {
+            of_width(ui, keys_pt, |ui| {
+                ui.add(egui::Label::new(RichText::new(keys).size(SMALL_PT).color(cx.palette.accent)).wrap());
+            });
+            of_width(ui, column_pt - keys_pt - GAP_PT, |ui| {
+                ui.add(egui::Label::new(description).wrap());
+            });
+        });
+    }
+}
+
+/// Shows contents in a column of a width, points.
+fn of_width(ui: &mut Ui, width: f32, contents: impl FnOnce(&mut Ui)) {
+    ui.vertical(|ui| {
+        ui.set_width(width);
+        contents(ui);
     });
 }

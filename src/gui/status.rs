@@ -3,7 +3,7 @@
 
 use super::PanelContext;
 use super::theme::SMALL_PT;
-use crate::app::JobCommand;
+use crate::app::{Job, JobCommand};
 use crate::params::Parameter;
 use egui::{Align, Layout, RichText, Ui};
 use std::time::Duration;
@@ -14,19 +14,25 @@ pub const PROGRESS_DELAY: Duration = Duration::from_millis(150);
 /// Smallest width of a part, points.
 const LEAST_PART_PT: f32 = 44.0;
 
+/// Whether work is under way that has taken long enough to be shown.
+pub fn is_work_shown(job: Option<&Job>) -> bool {
+    job.is_some_and(|job| job.since.elapsed() >= PROGRESS_DELAY)
+}
+
 /// Shows the line, right-aligned in the remaining space of the menu bar.
 pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         ui.spacing_mut().item_spacing.x = 10.0;
         progress(ui, cx);
-        for StatusPart { text, is_bad } in parts(cx).into_iter().rev() {
+        for StatusPart { text, tip, is_bad } in parts(cx).into_iter().rev() {
             // A part without room for a word is left out, so that no text lies on the menus.
             if ui.available_width() < LEAST_PART_PT {
                 break;
             }
             let color = if is_bad { cx.palette.warning } else { cx.palette.secondary };
-            let text = super::widgets::with_subscripts(&text, SMALL_PT, color);
-            ui.add(egui::Label::new(text).truncate());
+            let job = super::widgets::with_subscripts(&text, SMALL_PT, color);
+            let label = ui.add(egui::Label::new(job).truncate().show_tooltip_when_elided(false));
+            label.on_hover_text(format!("{text}\n{tip}"));
         }
     });
 }
@@ -34,6 +40,8 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
 /// A part of the line.
 struct StatusPart {
     text: String,
+    /// What the part says, as a sentence.
+    tip: String,
     /// Whether the part says that something is bad or unusual.
     is_bad: bool,
 }
@@ -42,24 +50,34 @@ struct StatusPart {
 fn parts(cx: &PanelContext) -> Vec<StatusPart> {
     let Some(picture) = &cx.state.picture else { return Vec::new() };
     let (width, height) = picture.size();
-    let quiet = |text: String| StatusPart { text, is_bad: false };
+    let quiet = |text: String, tip: &str| StatusPart { text, tip: tip.to_owned(), is_bad: false };
+    let place =
+        picture.origin.path().map_or_else(|| "A sample scene.".to_owned(), |path| path.display().to_string());
     let mut parts = vec![
-        quiet(picture.origin.name()),
-        quiet(format!("{width} \u{d7} {height}")),
-        quiet(picture.photo.encoding.to_string()),
+        quiet(picture.origin.name(), &place),
+        quiet(format!("{width} \u{d7} {height}"), "Columns and rows of the photograph."),
+        quiet(
+            picture.photo.encoding.to_string(),
+            "How the numbers of the file were read as amounts of light (File, Read as).",
+        ),
     ];
     if let Some(shown) = cx.state.shown() {
         let used = &shown.analysis.used;
         let auto = if shown.params.get(Parameter::CameraNoise).value().is_none() { " auto" } else { "" };
-        if cx.state.view.show_pinned {
-            parts.insert(0, StatusPart { text: "A: the pinned result".to_owned(), is_bad: true });
+        if cx.state.shows_pinned() {
+            let tip = "The views show the pinned result; the key A goes back to the newest, B.".to_owned();
+            parts.insert(0, StatusPart { text: "A: the pinned result".to_owned(), tip, is_bad: true });
         }
-        parts.push(quiet(format!("\u{3c3}0 {:.2}{auto}", used.camera_noise)));
+        parts.push(quiet(
+            format!("\u{3c3}0 {:.2}{auto}", used.camera_noise),
+            "Noise of the camera in counts, given or estimated from the photograph (section 5.2.1).",
+        ));
         let regions = &shown.analysis.intrinsic.regions;
         let misfits = regions.iter().filter(|region| !region.model_fits()).count();
         let text = regions_and_coverage(regions.len(), misfits, shown.coverage);
-        parts.push(StatusPart { text, is_bad: misfits > 0 });
-        parts.push(quiet(duration_text(shown.total_ms())));
+        let tip = "Regions, those that the model does not fit, and the share of the lit pixels in regions.";
+        parts.push(StatusPart { text, tip: tip.to_owned(), is_bad: misfits > 0 });
+        parts.push(quiet(duration_text(shown.total_ms()), "Time that the analysis took."));
     }
     parts
 }

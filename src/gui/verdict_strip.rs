@@ -10,20 +10,65 @@ use crate::app::{Edit, ViewCommand};
 use crate::describe::Names;
 use crate::trace::Replay;
 use crate::view::{Clause, ClauseSubject, CubeSettings, ImageSettings, Item, Layer, ResultSnapshot, verdict};
-use egui::{Label, Link, RichText, ScrollArea, Ui};
+use egui::{Align2, Area, Frame, Label, Link, Order, RichText, ScrollArea, Sense, Ui};
+
+/// What the verdict on the pinned result begins with.
+const OF_PINNED: &str = "A, pinned:";
+
+/// Largest width of the sentence over the picture, points.
+const OVER_PICTURE_PT: f32 = 520.0;
+
+/// The clauses of the sentence about a result, with their texts.
+fn clauses_with_texts(shown: &ResultSnapshot) -> (Vec<Clause>, Vec<String>) {
+    let clauses = verdict(shown);
+    let last = clauses.len().saturating_sub(1);
+    let texts = clauses.iter().enumerate().map(|(index, clause)| {
+        let text = if index == 0 { widgets::capitalized(&clause.text) } else { clause.text.clone() };
+        text + if index == last { "." } else { ";" }
+    });
+    let texts = texts.collect();
+    (clauses, texts)
+}
+
+/// Shows the sentence about a result in one line. What does not fit is shown over the picture, while the pointer or the focus of the keyboard
+/// is on the line or on the whole sentence.
+pub fn show_line(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
+    let (clauses, texts) = clauses_with_texts(shown);
+    let of_pinned = if cx.state.shows_pinned() { format!("{OF_PINNED} ") } else { String::new() };
+    let sentence = of_pinned + &texts.join(" ");
+    let font = egui::FontId::proportional(BODY_PT);
+    let width = ui.painter().layout_no_wrap(sentence.clone(), font, cx.palette.text).size().x;
+    if width <= ui.available_width() {
+        return show(ui, cx, shown);
+    }
+    let is_bad = clauses.iter().any(|clause| clause.is_bad);
+    let color = if is_bad { cx.palette.warning } else { cx.palette.text };
+    let text = RichText::new(sentence).size(BODY_PT).color(color);
+    let label =
+        Label::new(text).truncate().show_tooltip_when_elided(false).selectable(false).sense(Sense::click());
+    let line = ui.add(label);
+    let id = ui.scope_id().with("whole verdict");
+    let area_before = ui.ctx().memory(|memory| memory.area_rect(id));
+    let was_shown = ui.data(|data| data.get_temp::<bool>(id)).unwrap_or(false);
+    let pointer = ui.ctx().pointer_hover_pos().filter(|_| was_shown);
+    let is_over = pointer.zip(area_before).is_some_and(|(at, area)| area.expand(2.0).contains(at));
+    let is_shown = line.hovered() || line.has_focus() || is_over;
+    ui.data_mut(|data| data.insert_temp(id, is_shown));
+    if !is_shown {
+        return;
+    }
+    let area = Area::new(id).order(Order::Middle).pivot(Align2::LEFT_BOTTOM);
+    area.fixed_pos(line.rect.left_bottom() + egui::vec2(-8.0, 4.0)).constrain(true).show(ui.ctx(), |ui| {
+        Frame::popup(ui.style()).show(ui, |ui| {
+            ui.set_max_width(OVER_PICTURE_PT.min(line.rect.width().max(240.0)));
+            show(ui, cx, shown);
+        });
+    });
+}
 
 /// Shows the sentence about a result, in as many lines as needed.
 pub fn show(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
-    let clauses = verdict(shown);
-    let last = clauses.len().saturating_sub(1);
-    let texts: Vec<String> = clauses
-        .iter()
-        .enumerate()
-        .map(|(index, clause)| {
-            let text = if index == 0 { widgets::capitalized(&clause.text) } else { clause.text.clone() };
-            text + if index == last { "." } else { ";" }
-        })
-        .collect();
+    let (clauses, texts) = clauses_with_texts(shown);
     let font = egui::FontId::proportional(BODY_PT);
     let width =
         |text: &String| ui.painter().layout_no_wrap(text.clone(), font.clone(), cx.palette.text).size().x;
@@ -33,6 +78,9 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
         ui.spacing_mut().item_spacing = egui::vec2(5.0, 2.0);
         ui.spacing_mut().interact_size.y = 0.0;
         ui.style_mut().wrap_mode = fits.then_some(egui::TextWrapMode::Extend);
+        if cx.state.shows_pinned() {
+            ui.label(RichText::new(OF_PINNED).size(BODY_PT).color(cx.palette.accent));
+        }
         for (clause, text) in clauses.iter().zip(texts) {
             show_clause(ui, cx, clause, text);
         }
@@ -65,7 +113,7 @@ impl StepSentence {
         }
         let Some((_, _, sentence)) = &self.shown else { return };
         ScrollArea::vertical().max_height(ui.available_height()).show(ui, |ui| {
-            ui.add(Label::new(RichText::new(sentence).size(BODY_PT)).wrap());
+            ui.add(Label::new(RichText::new(sentence).size(BODY_PT)).wrap()).on_hover_text(sentence);
         });
     }
 }

@@ -74,6 +74,7 @@ fn draw(view_export: &ViewExport, state: &State, cube: CubePanel, gpu: &RenderSt
                     is_export: true,
                     commands: &mut ignored,
                     actions: &mut ignored_actions,
+                    hovers: false,
                 };
                 let frame = egui::Frame::new().fill(palette.background);
                 egui::CentralPanel::default()

@@ -10,8 +10,10 @@ use egui::{Align, Label, Layout, RichText, ScrollArea, Ui, vec2};
 const NAME_PT: f32 = 76.0;
 /// Width of all columns of numbers together, points.
 const NUMBERS_PT: f32 = 126.0;
-/// Width of a line of name, numbers and unit, points.
-const GROUP_PT: f32 = NAME_PT + NUMBERS_PT + 50.0;
+/// Width of a unit with the distance before it, points.
+const UNIT_PT: f32 = 50.0;
+/// Width of a line of name, numbers and unit, points. A narrower panel has the units in the tooltips.
+const GROUP_PT: f32 = NAME_PT + NUMBERS_PT + UNIT_PT;
 /// Height of a line, points.
 const LINE_PT: f32 = 18.0;
 
@@ -55,7 +57,7 @@ impl WatchPanel {
         groups.extend(found.pixel.as_ref().map(|pixel| pixel_lines(pixel, picture.size().0)));
         self.store_values((debugger.generation, replay.at()), debugger.playing.is_none(), groups);
         let Some(now) = &self.now else { return };
-        ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             egui::Frame::new().inner_margin(8).show(ui, |ui| {
                 ui.spacing_mut().item_spacing = vec2(4.0, 1.0);
                 table(ui, cx.palette, &now.groups, |line| self.has_changed(line));
@@ -157,12 +159,13 @@ fn pixel_lines(pixel: &WatchedPixel, width: usize) -> Vec<Line> {
 
 /// Shows groups of lines, in two columns if there is room.
 fn table(ui: &mut Ui, palette: &ThemeColors, groups: &[Vec<Line>], changed: impl Fn(&Line) -> bool) {
+    let line_pt = ui.available_width().min(GROUP_PT);
     let groups_per_row = if ui.available_width() >= 2.0 * GROUP_PT + 8.0 { 2 } else { 1 };
     for row in groups.chunks(groups_per_row) {
         ui.horizontal_top(|ui| {
             for group in row {
                 ui.vertical(|ui| {
-                    ui.set_width(GROUP_PT);
+                    ui.set_width(line_pt);
                     for line in group {
                         show_line(ui, palette, line, changed(line));
                     }
@@ -178,10 +181,14 @@ fn show_line(ui: &mut Ui, palette: &ThemeColors, line: &Line, changed: bool) {
     ui.horizontal(|ui| {
         name(ui, palette, line, changed);
         let text_color = if changed { palette.accent } else { palette.text };
+        let has_units = ui.available_width() >= NUMBERS_PT + UNIT_PT - 8.0;
+        let numbers_pt = if has_units { NUMBERS_PT } else { ui.available_width().min(NUMBERS_PT) };
         for value in &line.values {
-            cell(ui, NUMBERS_PT / line.values.len() as f32 - 4.0, RichText::new(value).color(text_color));
+            cell(ui, numbers_pt / line.values.len() as f32 - 4.0, RichText::new(value).color(text_color));
         }
-        ui.label(RichText::new(line.unit).color(palette.secondary));
+        if has_units {
+            ui.label(RichText::new(line.unit).color(palette.secondary));
+        }
     });
 }
 
@@ -195,13 +202,21 @@ fn name(ui: &mut Ui, palette: &ThemeColors, line: &Line, changed: bool) {
             ui.painter().rect_filled(rect, 1.0, palette.accent);
         }
         let text = RichText::new(line.name).color(palette.secondary);
-        ui.add(Label::new(text).truncate().show_tooltip_when_elided(false)).on_hover_text(line.tip);
+        let label = ui.add(Label::new(text).truncate().show_tooltip_when_elided(false));
+        let unit =
+            if line.unit.is_empty() { String::new() } else { format!(" In {}.", unit_name(line.unit)) };
+        label.on_hover_text(format!("{}{unit}", line.tip));
     });
+}
+
+/// The name of a unit in a sentence.
+fn unit_name(unit: &str) -> &str {
+    if unit == "px" { "pixels" } else { unit }
 }
 
 /// Shows a value, aligned to the right.
 fn cell(ui: &mut Ui, width: f32, text: RichText) {
-    let size = vec2(width, LINE_PT);
+    let size = vec2(width.max(0.0), LINE_PT);
     ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
         ui.set_min_size(size);
         ui.add(Label::new(text).extend());

@@ -39,6 +39,16 @@ pub struct ParameterSpec {
     pub auto: &'static str,
 }
 
+/// The section of a parameter that the paper does not have.
+const NOT_IN_PAPER: &str = "none in the paper";
+
+impl ParameterSpec {
+    /// Whether the paper has the parameter.
+    pub fn is_in_paper(&self) -> bool {
+        self.section != NOT_IN_PAPER
+    }
+}
+
 /// How a slider moves. Typed values may leave the slider's range, as far as the parameter's own range reaches.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SliderSpec {
@@ -179,7 +189,7 @@ macro_rules! parameter_rows {
                 range: [1.0, 32.0],
                 whole: true,
                 slider: SliderSpec::linear(1.0, 8.0, 1.0),
-                section: "none in the paper",
+                section: NOT_IN_PAPER,
                 first_stage: Stage::Masks,
                 paper: 1.0,
                 paper_default: Setting::Value(1.0),

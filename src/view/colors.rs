@@ -59,12 +59,13 @@ fn colors(
             }
         }
     }
-    // Two adjacent regions of one color would look like one region: the smaller, which has the higher number,
-    // gets another color.
+    // Two regions of one color would look like one region: the smaller, which has the higher number, gets another color. Of more
+    // regions than colors, only adjacent ones differ.
+    let differ = neighbors.len() <= palette.colors().len();
     for now in 1..kept.len() {
-        let touched =
-            neighbors[now - 1].iter().map(|other| usize::from(other.get())).filter(|&other| other < now);
-        if kept[now].is_some() && touched.into_iter().any(|other| kept[other] == kept[now]) {
+        let touches = |other: usize| neighbors[now - 1].iter().any(|id| usize::from(id.get()) == other);
+        if kept[now].is_some() && (1..now).any(|other| kept[other] == kept[now] && (differ || touches(other)))
+        {
             kept[now] = None;
         }
     }
@@ -209,11 +210,13 @@ mod tests {
     }
 
     #[test]
-    fn of_two_touching_regions_of_one_color_the_smaller_takes_another_color() {
+    fn of_two_regions_of_one_color_the_smaller_takes_another_color() {
         let apart = labels(&["111111..22"]);
         let touching = labels(&["11111112.2"]);
         let alike = [Palette::new().color(3); 2];
-        let now = colored(&touching, Some((&apart, &alike)));
-        assert!(now[0] == alike[0] && now[1] != alike[1]);
+        for map in [&apart, &touching] {
+            let now = colored(map, Some((&apart, &alike)));
+            assert!(now[0] == alike[0] && now[1] != alike[1]);
+        }
     }
 }

@@ -3,14 +3,18 @@
 
 mod candidate;
 mod fits;
+mod instant;
 mod item;
 mod step;
 mod threshold;
 
 pub use candidate::candidate_tests;
+pub use instant::{inspect_beginning, inspect_item_at};
 pub use item::{inspect_item, inspect_marked};
 pub use step::{histograms_at_cursor, inspect_step, step_verdict};
 pub use threshold::{Limits, ThresholdTest};
+
+use crate::raster::RegionId;
 
 /// Whether a verdict is good or bad.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,6 +40,8 @@ pub struct Inspection {
     pub sentence: String,
     /// The values with their limits.
     pub tests: Vec<ThresholdTest>,
+    /// Of a pixel whose region does not hold: the region, and its values with their limits.
+    pub of_region: Option<(RegionId, Vec<ThresholdTest>)>,
     /// The section of the paper, such as "5.3.2".
     pub section: &'static str,
 }

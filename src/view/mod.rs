@@ -57,8 +57,8 @@ pub use geometry::{GeometrySettings, SPHERE_DISTANCES, meeting_share, sphere_col
 pub use grouped::{counted, grouped};
 pub use histogram::{BINS_PER_BAND, ColorBin, Histogram, UniqueColor};
 pub use inspection::{
-    Inspection, Limits, ThresholdTest, Tone, candidate_tests, histograms_at_cursor, inspect_item,
-    inspect_marked, inspect_step, step_verdict,
+    Inspection, Limits, ThresholdTest, Tone, candidate_tests, histograms_at_cursor, inspect_beginning,
+    inspect_item, inspect_item_at, inspect_marked, inspect_step, step_verdict,
 };
 pub use item::{Item, Selection};
 pub use lamps::{Lamp, LampOfPixels};

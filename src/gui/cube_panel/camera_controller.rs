@@ -3,6 +3,7 @@
 use crate::app::State;
 use crate::gpu::shapes::cube_edges;
 use crate::gpu::{Orbit, Preset, Projection};
+use crate::gui::keyboard_focus::is_keyboard_owned;
 use crate::view::ColorSpace;
 use egui::{Event, Key, PointerButton, Rect, Response, Ui};
 
@@ -201,7 +202,7 @@ impl CameraController {
     ) {
         let size = [rect.width(), rect.height()];
         let before = self.orbit;
-        let takes_keys = (response.hovered() || response.has_focus()) && !ui.ctx().text_edit_focused();
+        let takes_keys = (response.hovered() || response.has_focus()) && !is_keyboard_owned(ui.ctx());
         let keys = if takes_keys { pressed(ui) } else { Vec::new() };
         self.handle_pointer(ui, response, rect, orbits);
         for &key in &keys {

@@ -1,13 +1,18 @@
 //! Zooming and panning of the image view.
 
 use super::geometry::Placement;
+use crate::gui::action::ViewStep;
 use crate::view::ImageSettings;
-use egui::{Event, EventFilter, Key, Response, Ui, Vec2, vec2};
+use egui::{EventFilter, Pos2, Response, Ui, vec2};
 
-/// Distance that an arrow key moves the picture, points.
+/// Distance that a step moves the picture, points.
 const PAN_STEP_PT: f32 = 40.0;
 
-/// Zooms and pans by scrolling, pinching and keys.
+/// Factor of a step of the zoom.
+const ZOOM_STEP: f32 = 1.25;
+
+/// Zooms by scrolling and pinching. A click gives the view the focus, in which the arrow keys stay: they step the debugger and do not
+/// move the focus on.
 pub fn navigate(ui: &Ui, response: &Response, place: &Placement, settings: &mut ImageSettings) {
     let pointer = response.hover_pos().filter(|_| response.contains_pointer());
     if response.clicked() || response.drag_started() {
@@ -18,32 +23,21 @@ pub fn navigate(ui: &Ui, response: &Response, place: &Placement, settings: &mut 
     if let Some(pointer) = pointer.filter(|_| (factor - 1.0).abs() > 1e-6) {
         place.zoomed(factor, pointer).store(settings);
     }
-    let focused = ui.memory(egui::Memory::focused);
-    let takes_keys = response.has_focus() || (pointer.is_some() && focused.is_none());
-    if !takes_keys {
-        return;
+    if response.has_focus() {
+        let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
     }
-    let arrows = EventFilter { horizontal_arrows: true, vertical_arrows: true, ..EventFilter::default() };
-    ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
-    let (offset, factor) = ui.input(|input| {
-        // The modifiers of each press count and not those at the end of the frame: Ctrl++ enlarges the interface, and in a slow frame
-        // Ctrl is up again.
-        let presses = |wanted: Key| {
-            let is_wanted = |event: &&Event| {
-                matches!(event, Event::Key { key, pressed: true, modifiers, .. } if *key == wanted && !modifiers.command)
-            };
-            input.events.iter().filter(is_wanted).count() as f32
-        };
-        let offset = vec2(
-            presses(Key::ArrowLeft) - presses(Key::ArrowRight),
-            presses(Key::ArrowUp) - presses(Key::ArrowDown),
-        );
-        let zoom_steps = presses(Key::Plus) + presses(Key::Equals) - presses(Key::Minus);
-        (offset * PAN_STEP_PT, 1.25f32.powf(zoom_steps))
-    });
-    if offset != Vec2::ZERO {
-        place.panned(offset).store(settings);
-    } else if (factor - 1.0).abs() > 1e-6 {
-        place.zoomed(factor, pointer.unwrap_or(place.view.center())).store(settings);
+}
+
+/// The placement after a step. The zoom keeps the point under the pointer, or without a pointer in the view, the point in its middle.
+pub fn stepped(place: Placement, step: ViewStep, pointer: Option<Pos2>) -> Placement {
+    let anchor = pointer.filter(|&pointer| place.view.contains(pointer)).unwrap_or(place.view.center());
+    match step {
+        ViewStep::ZoomIn => place.zoomed(ZOOM_STEP, anchor),
+        ViewStep::ZoomOut => place.zoomed(1.0 / ZOOM_STEP, anchor),
+        ViewStep::Left => place.panned(vec2(PAN_STEP_PT, 0.0)),
+        ViewStep::Right => place.panned(vec2(-PAN_STEP_PT, 0.0)),
+        ViewStep::Up => place.panned(vec2(0.0, PAN_STEP_PT)),
+        ViewStep::Down => place.panned(vec2(0.0, -PAN_STEP_PT)),
     }
 }

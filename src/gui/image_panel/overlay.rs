@@ -381,19 +381,3 @@ pub fn legend_box(painter: &Painter, palette: &ThemeColors, view: Rect, entries:
         }
     }
 }
-
-/// Paints the warnings of the analysis along the upper edge.
-pub fn warnings(painter: &Painter, palette: &ThemeColors, view: Rect, state: &State) {
-    let Some(shown) = state.shown() else { return };
-    let mut top = view.top() + 6.0;
-    for warning in &shown.analysis.warnings {
-        let width = view.width() - 32.0;
-        let font = FontId::proportional(SMALL_PT);
-        let galley = painter.layout(warning.clone(), font, palette.secondary, width.max(40.0));
-        let size = galley.size() + vec2(12.0, 6.0);
-        let area = Rect::from_min_size(pos2(view.center().x - size.x / 2.0, top), size);
-        painter.rect_filled(area, 3.0, palette.panel.gamma_multiply(0.9));
-        painter.galley(area.min + vec2(6.0, 3.0), galley, palette.secondary);
-        top = area.bottom() + 4.0;
-    }
-}

@@ -1,11 +1,12 @@
 //! The texts over the picture: names of layers, legends and warnings.
 
+use super::notes::DismissedNotes;
 use super::textures::Slot;
 use super::{cursor, overlay};
 use crate::gui::PanelContext;
 use crate::view::{Instant, Layer};
 use egui::accesskit::Role;
-use egui::{Align2, Rect, Sense, Ui, Vec2, WidgetInfo, vec2};
+use egui::{Align2, Rect, Sense, Ui, WidgetInfo, vec2};
 
 /// Writes the names of the layers (`shows_names`), the legends of their colors, and the warnings of the analysis.
 pub fn show_texts(
@@ -15,7 +16,9 @@ pub fn show_texts(
     parts: &[(Layer, Slot, Rect)],
     shows_names: bool,
     instant: Option<&Instant>,
+    notes: &mut DismissedNotes,
 ) {
+    let pinned_pt = if instant.is_none() { show_pinned(ui, painter, cx, shows_names) } else { 0.0 };
     for &(layer, slot, part) in parts {
         let painter = painter.with_clip_rect(part);
         if let Some(instant) = instant.filter(|_| slot == Slot::Layer) {
@@ -56,7 +59,25 @@ pub fn show_texts(
     if instant.is_some() || is_told {
         return;
     }
-    let view = painter.clip_rect();
-    let below = if shows_names { vec2(0.0, 22.0) } else { Vec2::ZERO };
-    overlay::warnings(painter, cx.palette, view.translate(below), cx.state);
+    let names_pt = if shows_names { NAME_PT } else { 0.0 };
+    notes.show(ui, painter, cx, painter.clip_rect().translate(vec2(0.0, names_pt + pinned_pt)));
+}
+
+/// Height of a name with the distance to what is below, points.
+const NAME_PT: f32 = 22.0;
+
+/// Says over the picture that it is of the pinned result, below the names of the layers. Returns the height of the line; 0 where the result is the
+/// newest.
+fn show_pinned(ui: &Ui, painter: &egui::Painter, cx: &PanelContext, shows_names: bool) -> f32 {
+    if !cx.state.shows_pinned() || cx.is_export {
+        return 0.0;
+    }
+    let below = if shows_names { NAME_PT } else { 0.0 };
+    let corner = painter.clip_rect().left_top() + vec2(6.0, 6.0 + below);
+    let text = "A: the pinned result";
+    let place = overlay::text_box(painter, cx.palette, corner, Align2::LEFT_TOP, text);
+    let label = ui.interact(place, ui.scope_id().with("pinned result"), Sense::hover());
+    label.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
+    label.on_hover_text("The key A goes back to the newest result, B.");
+    NAME_PT
 }

@@ -6,6 +6,7 @@ use super::overlay::MARK_COLOR;
 use super::white_patch;
 use crate::app::{Combine, Command, Edit, Gesture, Question, State, ViewCommand};
 use crate::gui::PanelContext;
+use crate::gui::keyboard_focus::is_keyboard_owned;
 use crate::raster::{Mask, PixelIndex};
 use crate::view::marking::{brush, outline, rectangle};
 use crate::view::{ImageSettings, Item, Layer, ProfileLine, Tool};
@@ -228,7 +229,7 @@ impl ToolState {
     ) {
         let (response, place) = (context.response, &context.place);
         let pointer_px = self.pointer_px;
-        let mut is_closed = ui.input(|input| input.key_pressed(Key::Enter));
+        let mut is_closed = !is_keyboard_owned(ui.ctx()) && ui.input(|input| input.key_pressed(Key::Enter));
         if response.clicked_by(PointerButton::Primary) {
             if let PendingGesture::Polygon(path) = &mut self.gesture {
                 let first = (path[0] - pointer_px).length() * place.zoom < HANDLE_RADIUS_PT;

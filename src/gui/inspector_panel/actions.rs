@@ -125,9 +125,11 @@ fn export(ui: &mut Ui, cx: &mut PanelContext, pixels: PixelSet) {
 /// Subject, verdict, sentence and values, a line each.
 fn as_text(found: &Inspection) -> String {
     let head = format!("{}: {} (section {})", found.subject, found.verdict, found.section);
+    let of_region = found.of_region.iter().flat_map(|(_, tests)| tests);
     let tests = found
         .tests
         .iter()
+        .chain(of_region)
         .map(|test| format!("{}: {}", if test.passed { "passed" } else { "failed" }, test.text()));
     let sentence = Some(found.sentence.clone()).filter(|sentence| !sentence.is_empty());
     std::iter::once(head).chain(sentence).chain(tests).collect::<Vec<_>>().join("\n")

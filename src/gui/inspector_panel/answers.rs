@@ -11,6 +11,7 @@ use crate::params::Setting;
 use crate::raster::PixelIndex;
 use crate::view::{Why, WhySentence};
 use egui::{FontId, Response, RichText, Sense, Ui, Widget, WidgetInfo, pos2, vec2};
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 /// Shows, while no decisions are recorded, a hint or the button that starts recording.
@@ -36,12 +37,15 @@ pub fn not_recorded(ui: &mut Ui, cx: &mut PanelContext) {
 pub fn show(ui: &mut Ui, cx: &mut PanelContext, found: &Why) {
     if let Some((pixel, history)) = &found.pixel {
         what_if(ui, cx, *pixel);
-        let heading = widgets::heading(ui, cx.palette, "History");
+        let [x, y] = pixel.position(found_width(cx));
+        let heading = widgets::heading(ui, cx.palette, &format!("History of pixel {x}, {y}"));
         heading.on_hover_text("What was decided about the pixel, newest first; each line leads to its step.");
         show_sentences(ui, cx, history);
     }
     if let Some((hypothesis, sentences)) = &found.hypothesis {
-        let heading = widgets::heading(ui, cx.palette, &format!("Hypothesis {hypothesis}"));
+        let of = cx.state.debugger.names.region_of(*hypothesis);
+        let of = of.map_or_else(String::new, |region| format!(", region {region}"));
+        let heading = widgets::heading(ui, cx.palette, &format!("Hypothesis {hypothesis}{of}"));
         Term::Hypothesis.card(heading, cx.palette);
         show_sentences(ui, cx, sentences);
     }
@@ -52,6 +56,11 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, found: &Why) {
         );
         show_sentences(ui, cx, sentences);
     }
+}
+
+/// Number of columns of the photograph.
+fn found_width(cx: &PanelContext) -> usize {
+    cx.state.picture.as_ref().map_or(1, |picture| picture.size().0)
 }
 
 /// What the pointer tells of a sentence of the second look.
@@ -65,8 +74,11 @@ fn show_sentences(ui: &mut Ui, cx: &mut PanelContext, sentences: &[WhySentence])
     }
     let at = cx.state.debugger.replay.as_ref().map(crate::trace::Replay::at);
     for sentence in sentences {
-        let is_current = at.is_some() && at == sentence.step.map(|step| step + 1);
-        let response = show_sentence(ui, cx, sentence, is_current);
+        let place = match (at, sentence.step) {
+            (Some(at), Some(step)) => (step + 1).cmp(&at),
+            _ => Ordering::Less,
+        };
+        let response = show_sentence(ui, cx, sentence, place);
         let Some(step) = sentence.step else {
             response.on_hover_text(OF_SECOND_LOOK_TIP);
             continue;
@@ -82,12 +94,18 @@ const STAGE_PT: f32 = 58.0;
 /// Indentation per level of the tree of merged hypotheses, points.
 const INDENT_PT: f32 = 12.0;
 
-/// Shows a sentence with its stage; `is_current` marks the sentence at the cursor.
-fn show_sentence(ui: &mut Ui, cx: &PanelContext, sentence: &WhySentence, is_current: bool) -> Response {
+/// Shows a sentence with its stage. `place`: whether its step lies before, at or after the cursor; the sentence at the cursor is marked, those
+/// after it are faint.
+fn show_sentence(ui: &mut Ui, cx: &PanelContext, sentence: &WhySentence, place: Ordering) -> Response {
+    let is_current = place == Ordering::Equal;
     let width = ui.available_width();
     let left = STAGE_PT + INDENT_PT * sentence.depth as f32;
     let font = FontId::proportional(SMALL_PT);
-    let color = if is_current { cx.palette.accent } else { cx.palette.text };
+    let color = match place {
+        Ordering::Less => cx.palette.text,
+        Ordering::Equal => cx.palette.accent,
+        Ordering::Greater => cx.palette.secondary,
+    };
     let galley =
         ui.painter().layout(sentence.text.clone(), font.clone(), color, (width - left - 4.0).max(40.0));
     let size = vec2(width, galley.size().y + 4.0);

@@ -21,6 +21,13 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, found: &Inspection, subject: Sub
         color_and_amounts(ui, cx, pixel);
     }
     threshold_bar::show(ui, cx.palette, &found.tests);
+    if let Some((region, tests)) = &found.of_region {
+        let text = format!("Its region {region} does not hold");
+        ui.label(RichText::new(text).size(SMALL_PT).color(cx.palette.warning)).on_hover_text(
+            "The pixel is split by its region's plane only where the region holds (section 6).",
+        );
+        threshold_bar::show(ui, cx.palette, tests);
+    }
     if matches!(subject, Subject::Selected(Item::Pixel(_))) {
         ui.scope(|ui| distances::show(ui, cx));
     }

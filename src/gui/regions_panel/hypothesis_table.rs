@@ -2,7 +2,7 @@
 //! windows and areas.
 
 use super::{ROW_PT, cell, vector};
-use crate::app::{Command, DebugCommand, Edit, ViewCommand};
+use crate::app::{Command, DebugCommand, Edit};
 use crate::gui::theme::ThemeColors;
 use crate::gui::{PanelContext, widgets};
 use crate::raster::RegionId;
@@ -109,8 +109,8 @@ impl HypothesisTable {
                     }
                 });
             });
-        if ui.rect_contains_pointer(ui.max_rect()) && hovered != cx.state.hover {
-            cx.send(ViewCommand::Hover(hovered));
+        if let Some(item) = hovered {
+            cx.hover(item);
         }
     }
 

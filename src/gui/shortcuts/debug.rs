@@ -41,6 +41,9 @@ pub const KEYS: &[Shortcut] = &[
     key(Modifiers::NONE, Key::D, DebugAction::Record, "Record decisions, or do not"),
 ];
 
+/// Height of the lowest view, points; sliders and fields are lower.
+const LOWEST_VIEW_PT: f32 = 40.0;
+
 /// Widgets and views that take keys before the debugger does.
 #[derive(Clone, Copy, Debug)]
 pub struct KeyListeners {
@@ -63,23 +66,31 @@ impl KeyListeners {
 
     /// Whether no listener takes the key of a shortcut, so that the shortcut's action is done.
     pub fn allows(&self, ctx: &Context, shortcut: &Shortcut) -> bool {
-        let Action::Debug(action) = shortcut.action else { return true };
-        if ctx.text_edit_focused() || egui::Popup::is_any_open(ctx) {
-            return false;
+        if !matches!(shortcut.action, Action::Debug(_) | Action::View(_)) {
+            return true;
         }
         let focused = ctx.memory(egui::Memory::focused).filter(|&id| id != self.track);
         let focused_widget = focused.and_then(|id| ctx.read_response(id));
-        // A widget that senses clicks and drags is a view: the image or the color space. A key does not press a view as
-        // it presses a button.
-        let on_view = focused_widget
-            .as_ref()
-            .is_none_or(|widget| widget.sense.senses_click() && widget.sense.senses_drag());
+        // A large widget that senses clicks and drags is a view: the image or the color space. A key does not press a view as it
+        // presses a button, and changes no value as it does on a slider.
+        let on_view = focused_widget.as_ref().is_none_or(|widget| {
+            widget.sense.senses_click() && widget.sense.senses_drag() && widget.rect.height() > LOWEST_VIEW_PT
+        });
         let focused_center = focused_widget.map(|widget| widget.rect.center());
         let places = [ctx.pointer_hover_pos(), focused_center];
         let in_color_space =
             places.iter().flatten().any(|&at| self.color_space_rect.is_some_and(|rect| rect.contains(at)));
+        let Action::Debug(action) = shortcut.action else {
+            // The color space is zoomed by the same keys.
+            return !in_color_space || !shortcut.keys.modifiers.is_none();
+        };
+        let turns_color_space =
+            self.color_space_rect.zip(focused_center).is_some_and(|(rect, at)| rect.contains(at));
         let is_free = match shortcut.keys.logical_key {
-            Key::ArrowLeft | Key::ArrowRight if shortcut.keys.modifiers.is_none() => focused.is_none(),
+            // A view without a use of its own for the arrow keys leaves them to the debugger.
+            Key::ArrowLeft | Key::ArrowRight if shortcut.keys.modifiers.is_none() => {
+                on_view && !turns_color_space
+            }
             Key::ArrowLeft | Key::ArrowRight | Key::Space | Key::End => on_view,
             Key::Enter => on_view && !self.draws_polygon,
             Key::Home | Key::D => on_view && !in_color_space,

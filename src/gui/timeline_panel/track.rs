@@ -3,10 +3,9 @@
 use super::drawing::draw;
 use super::scale::{Lanes, Scale};
 use super::tooltip;
-use crate::app::{Command, DebugCommand, Direction, Edit, Goal, ViewCommand};
+use crate::app::{Command, DebugCommand, Direction, Edit, Goal};
 use crate::describe::Names;
 use crate::gui::PanelContext;
-use crate::raster::RegionId;
 use crate::trace::{Block, Replay};
 use crate::view::{Item, TimelineAxis, TimelineSection, timeline_density};
 use egui::accesskit::{Action, ActionData};
@@ -31,8 +30,6 @@ pub struct Track {
     density: Option<(DensityKey, Vec<usize>)>,
     /// Position of the cursor and length of the trace in the last frame, steps.
     cursor: [usize; 2],
-    /// The region that this panel last reported as hovered.
-    sent_region: Option<RegionId>,
 }
 
 impl Track {
@@ -123,7 +120,7 @@ impl Track {
         let block = pointer
             .filter(|pointer| lanes.blocks.contains(*pointer))
             .and_then(|pointer| replay.trace().block_at(scale.step_at(pointer.x)?));
-        self.send_hover(cx, response.contains_pointer().then_some(block.as_ref()).flatten());
+        send_hover(cx, response.contains_pointer().then_some(block.as_ref()).flatten());
         if response.hovered() && !response.dragged() {
             ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
         }
@@ -144,18 +141,13 @@ impl Track {
             }
         }
     }
+}
 
-    /// Sends the region under the pointer as hovered, when the region has changed.
-    fn send_hover(&mut self, cx: &mut PanelContext, block: Option<&Block>) {
-        let names = &cx.state.debugger.names;
-        let region = block.and_then(|block| names.region_of(block.topic.hypothesis()));
-        if region != self.sent_region {
-            let is_own_hover = self.sent_region.map(Item::Region) == cx.state.hover;
-            if region.is_some() || is_own_hover {
-                cx.send(ViewCommand::Hover(region.map(Item::Region)));
-            }
-            self.sent_region = region;
-        }
+/// Sends the region under the pointer as hovered.
+fn send_hover(cx: &mut PanelContext, block: Option<&Block>) {
+    let names = &cx.state.debugger.names;
+    if let Some(region) = block.and_then(|block| names.region_of(block.topic.hypothesis())) {
+        cx.hover(Item::Region(region));
     }
 }
 

@@ -24,6 +24,10 @@ fn of_pixel(shown: &ResultSnapshot, pixel: PixelIndex) -> Option<Inspection> {
     let analysis = &shown.analysis;
     let color = *shown.picture.photo.image.pixels.as_slice().get(pixel.index())?;
     let [x, y] = pixel.position(shown.picture.size().0);
+    let subject = format!("Pixel {x}, {y}");
+    if shown.area.as_ref().is_some_and(|area| area.as_slice().get(pixel.index()) == Some(&false)) {
+        return Some(outside_area(subject));
+    }
     let label = *shown.labels().as_slice().get(pixel.index())?;
     let region = RegionId::from_label(label).filter(|id| id.index() < analysis.intrinsic.regions.len());
     let reason = reason_entry(*analysis.intrinsic.reasons.as_slice().get(pixel.index())?);
@@ -61,7 +65,29 @@ fn of_pixel(shown: &ResultSnapshot, pixel: PixelIndex) -> Option<Inspection> {
             (format!("Not explained: {}", entry.name), Tone::Bad, format!("{of}{}", entry.tooltip))
         }
     };
-    Some(Inspection { subject: format!("Pixel {x}, {y}"), verdict, tone, sentence, tests, section: "6" })
+    let of_region = region.and_then(|region| failed_region(shown, region));
+    Some(Inspection { subject, verdict, tone, sentence, tests, of_region, section: "6" })
+}
+
+/// The findings about a pixel that a restricted analysis leaves out.
+fn outside_area(subject: String) -> Inspection {
+    Inspection {
+        subject,
+        verdict: "Outside of the analyzed area".to_owned(),
+        tone: Tone::Neutral,
+        sentence: "The analysis is restricted to an area without this pixel, which stays as it is".to_owned(),
+        tests: Vec::new(),
+        of_region: None,
+        section: "4",
+    }
+}
+
+/// A region that does not hold, with its values and limits; none where it holds or nobody asks.
+fn failed_region(shown: &ResultSnapshot, id: RegionId) -> Option<(RegionId, Vec<ThresholdTest>)> {
+    let region = shown.analysis.intrinsic.regions.get(id.index())?;
+    let is_judged = shown.params.refinements().region_holds;
+    let fails = is_judged && !region.model_fits();
+    fails.then(|| (id, region_tests(region, shown.trace().map(|trace| &**trace))))
 }
 
 /// The tests of the masks (section 4): brightness, and the largest band.
@@ -104,7 +130,15 @@ fn of_region(shown: &ResultSnapshot, id: RegionId) -> Option<Inspection> {
         grouped(region.highlight_pixels),
         region.confidence
     );
-    Some(Inspection { subject: format!("Region {id}"), verdict, tone, sentence, tests, section: "6" })
+    Some(Inspection {
+        subject: format!("Region {id}"),
+        verdict,
+        tone,
+        sentence,
+        tests,
+        of_region: None,
+        section: "6",
+    })
 }
 
 fn of_window(shown: &ResultSnapshot, window: u32) -> Option<Inspection> {
@@ -121,6 +155,7 @@ fn of_window(shown: &ResultSnapshot, window: u32) -> Option<Inspection> {
         tone: Tone::Neutral,
         sentence: "by the number of directions in which its colors vary beyond the noise".to_owned(),
         tests: classified.map_or_else(Vec::new, |found| window_tests(found, None)),
+        of_region: None,
         section: "5.2.1",
     })
 }
@@ -135,6 +170,7 @@ fn of_bin(shown: &ResultSnapshot, bin: u32) -> Option<Inspection> {
         tone: Tone::Neutral,
         sentence: "of this color, within a 64th of full scale in each band".to_owned(),
         tests: tests.to_vec(),
+        of_region: None,
         section: "4",
     })
 }
@@ -163,6 +199,7 @@ pub fn inspect_marked(shown: &ResultSnapshot, mask: &Mask) -> Option<Inspection>
             ),
             most("dark", found.dark, "Share of the pixels that are not analyzed (section 4)."),
         ],
+        of_region: None,
         section: "5.2.1",
     })
 }

@@ -29,6 +29,7 @@ pub fn inspect_step(replay: &Replay, names: &Names, colors: &Raster<[f32; 3]>) -
         tone,
         sentence: names.step(&step),
         tests,
+        of_region: None,
         section: section(replay),
     })
 }

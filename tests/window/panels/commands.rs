@@ -87,6 +87,38 @@ fn the_context_menu_of_a_row_is_about_its_region() {
 }
 
 #[test]
+fn what_the_pointer_has_left_is_hovered_no_more() {
+    let mut window = tiny_window();
+    zoom_in(&mut window);
+    let (x, y) = inside(&window, 2);
+    let on_pixel = at(&window, x as f32 + 0.5, y as f32 + 0.5);
+    let on_row = window.get_by_role_and_label(Role::Label, "color of region 2").rect().center();
+    let on_menus = window.get_by_role_and_label(Role::Button, "Help").rect().center();
+    for place in [on_pixel, on_row] {
+        window.hover_at(place);
+        window.run_steps(3);
+        assert!(state(&window).hover.is_some(), "{place}");
+        window.hover_at(on_menus);
+        window.run_steps(3);
+        assert_eq!(state(&window).hover, None, "{place}");
+    }
+}
+
+#[test]
+fn the_zoom_is_found_in_the_palette() {
+    let mut window = tiny_window();
+    for (name, zoom) in
+        [("zoom 100", Some(1.0)), ("zoom in", Some(1.25)), ("zoom out", Some(1.0)), ("zoom fit", None)]
+    {
+        press(&mut window, Modifiers::COMMAND, Key::P);
+        type_text(&mut window, name);
+        press(&mut window, Modifiers::NONE, Key::Enter);
+        window.run_steps(3);
+        assert_eq!(state(&window).view.image.zoom, zoom, "{name}");
+    }
+}
+
+#[test]
 fn the_picture_does_not_move_while_the_cursor_does() {
     let mut window = tiny_window();
     let picture = |window: &Window| window.get_by_role_and_label(Role::Image, "Picture").rect();

@@ -97,15 +97,22 @@ fn keys_go_where_the_trace_says() {
 }
 
 #[test]
-fn arrows_are_left_to_whoever_has_the_focus() {
+fn arrows_step_the_decisions_also_after_a_click_into_the_picture() {
     let mut window = tiny_window();
     plain(&mut window, Key::Home);
     let view = window.get_by_role_and_label(Role::Image, "Picture").rect();
     drag(&mut window, &[view.center(), view.center() + vec2(9.0, 0.0)], Modifiers::NONE);
+    let center = |window: &Window| state(window).view.image.center_px;
+    let before = center(&window);
     plain(&mut window, Key::ArrowRight);
-    assert_eq!(cursor(&window), 0, "the picture pans");
-    press(&mut window, Modifiers::SHIFT, Key::ArrowRight);
-    assert!(cursor(&window) > 0, "with Shift nobody else means them");
+    assert_eq!((cursor(&window), center(&window)), (1, before), "a step, and the picture stays");
+    press(&mut window, Modifiers::COMMAND | Modifiers::SHIFT, Key::ArrowRight);
+    assert_eq!(cursor(&window), 1);
+    assert_ne!(center(&window), before, "with Ctrl and Shift the picture moves");
+    named(&window, Role::Slider, "camera noise").focus();
+    window.run_steps(1);
+    plain(&mut window, Key::ArrowRight);
+    assert_eq!(cursor(&window), 1, "the arrow key belongs to the slider");
     let track = named(&window, Role::Slider, "Timeline").rect();
     tap(&mut window, track.center());
     let before = cursor(&window);

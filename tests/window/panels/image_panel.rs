@@ -128,10 +128,7 @@ fn scrolling_zooms_at_the_pointer_and_keys_travel() {
     harness.run_steps(3);
     assert!((place(&harness).zoom - after.zoom / 1.25).abs() < 1e-3);
     let center = place(&harness).center;
-    // When the panel does not have the focus, arrow keys step through the decisions.
-    harness.get_by_label("Picture").focus();
-    harness.run_steps(1);
-    harness.key_press(Key::ArrowRight);
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::ArrowRight);
     harness.run_steps(3);
     assert!(place(&harness).center.x > center.x);
     harness.get_by_label("Fit").click();
@@ -147,6 +144,9 @@ fn a_click_selects_a_region_a_pixel_or_nothing() {
     move_to(&mut harness, at);
     harness.run_steps(2);
     assert_eq!(harness.state().state().hover, Some(Item::Pixel(pixel)));
+    harness.event(Event::PointerGone);
+    harness.run_steps(2);
+    assert_eq!(harness.state().state().hover, None, "the pointer has left the window");
     click(&mut harness, at, Modifiers::NONE);
     let item = |harness: &Window| harness.state().state().document.selection.item;
     assert_eq!(item(&harness), Some(region(2)));

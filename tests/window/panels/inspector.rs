@@ -114,6 +114,35 @@ fn a_hovered_pixel_takes_the_place_of_the_selected_one_and_moves_nothing_below()
 }
 
 #[test]
+fn at_the_cursor_nothing_of_the_end_is_told() {
+    let mut window = inspector();
+    apply(&mut window, Edit::Select(Some(region(1))));
+    assert!(says(&window, "Verdict: Holds") || says(&window, "Verdict: Does not hold"));
+    apply(&mut window, Command::Debug(DebugCommand::Seek(0)));
+    assert!(says(&window, "Verdict: Nothing is decided yet") && says(&window, "Verdict: Not begun"));
+    assert!(!says(&window, "Verdict: Holds") && !says(&window, "Verdict: Does not hold"));
+    let inside = shown(&window).labels().as_slice().iter().position(|&label| label == 1).unwrap();
+    apply(&mut window, Edit::Select(Some(Item::Pixel(PixelIndex::from_index(inside)))));
+    assert!(says(&window, "Verdict: In no hypothesis so far"));
+    let trace = Arc::clone(state(&window).debugger.trace().unwrap());
+    apply(&mut window, Command::Debug(DebugCommand::Seek(trace.len() - 1)));
+    assert!(says(&window, "Verdict: In hypothesis"));
+    apply(&mut window, Command::Debug(DebugCommand::Seek(trace.len())));
+    assert!(!says(&window, "Verdict: In hypothesis"), "the result again");
+}
+
+#[test]
+fn a_pixel_outside_of_the_analyzed_area_is_called_so() {
+    let mut window = inspector();
+    let labels = shown(&window).labels().clone();
+    let area = labels.map(|&label| label == 1);
+    let outside = labels.as_slice().iter().position(|&label| label == 2).unwrap();
+    apply(&mut window, Edit::RestrictTo(Some(Arc::new(area))));
+    apply(&mut window, Edit::Select(Some(Item::Pixel(PixelIndex::from_index(outside)))));
+    assert!(says(&window, "Verdict: Outside of the analyzed area") && !says(&window, "shadow"));
+}
+
+#[test]
 fn a_step_has_its_verdict_and_can_be_run_to_and_stopped_at_again() {
     let mut window = inspector();
     go_to(&mut window, |event| matches!(event, Event::CandidateTested(test) if !test.verdict.accepted()));

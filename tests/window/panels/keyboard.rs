@@ -124,6 +124,63 @@ fn escape_closes_a_menu_or_gives_typing_up_and_leaves_the_selection() {
 }
 
 #[test]
+fn menus_are_opened_walked_and_chosen_from_by_keys() {
+    let mut window = tiny_window();
+    press(&mut window, Modifiers::NONE, Key::F10);
+    assert!(says(&window, "Sample scenes"), "the first menu");
+    press(&mut window, Modifiers::NONE, Key::ArrowRight);
+    assert!(says(&window, "Invert marked") && !says(&window, "Sample scenes"), "the next menu");
+    press(&mut window, Modifiers::NONE, Key::ArrowDown);
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert!(!says(&window, "Analyze only the marked pixels"), "the menu is closed");
+    assert!(crate::window::marked(&window) > 0, "the first row that can be chosen inverts the marked pixels");
+    press(&mut window, Modifiers::ALT, Key::V);
+    assert!(says(&window, "Arrange as at first"));
+    press(&mut window, Modifiers::NONE, Key::ArrowLeft);
+    assert!(says(&window, "Invert marked") && !says(&window, "Arrange as at first"));
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(!says(&window, "Invert marked"));
+}
+
+#[test]
+fn a_submenu_is_entered_and_left_by_arrows() {
+    let mut window = tiny_window();
+    press(&mut window, Modifiers::ALT, Key::F);
+    for _ in 0..4 {
+        press(&mut window, Modifiers::NONE, Key::ArrowDown);
+    }
+    let name = dichroscope::truth::sample::SAMPLES[0].name;
+    assert!(says(&window, name), "the submenu of samples opens as the focus reaches it");
+    press(&mut window, Modifiers::NONE, Key::ArrowRight);
+    press(&mut window, Modifiers::NONE, Key::ArrowLeft);
+    assert!(!says(&window, name) && says(&window, "Sample scenes"), "left again, and in the same menu");
+    press(&mut window, Modifiers::NONE, Key::ArrowRight);
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    window.run_steps(3);
+    assert_eq!(state(&window).picture.as_ref().unwrap().origin.name(), name);
+    assert!(!says(&window, "Sample scenes"));
+}
+
+#[test]
+fn letters_reach_no_command_while_a_menu_is_open() {
+    let mut window = tiny_window();
+    let before = state(&window).view.clone();
+    for opens in [Modifiers::NONE, Modifiers::ALT] {
+        let key = if opens.alt { Key::A } else { Key::F10 };
+        press(&mut window, opens, key);
+        for key in [Key::T, Key::K, Key::R, Key::Num3, Key::D, Key::Minus, Key::C] {
+            window.key_press(key);
+            press(&mut window, Modifiers::COMMAND, key);
+        }
+        assert_eq!(state(&window).view, before);
+        assert!(state(&window).pinned.is_none() && state(&window).notices.is_empty());
+        press(&mut window, Modifiers::NONE, Key::Escape);
+    }
+    press(&mut window, Modifiers::NONE, Key::T);
+    assert_eq!(state(&window).view.theme, Theme::Light, "the menu is closed");
+}
+
+#[test]
 fn a_notice_stays_until_it_is_dismissed() {
     let mut window = window();
     apply(&mut window, ViewCommand::Notify(Severity::Warning, "The moon is full.".to_owned()));

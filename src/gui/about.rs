@@ -1,0 +1,60 @@
+//! Which result a panel is about: told on its tab while the pinned result is shown, and over the panel while a newer result is being
+//! computed.
+
+use super::PanelContext;
+use super::status::is_work_shown;
+use super::theme::SMALL_PT;
+use crate::app::State;
+use egui::accesskit::Role;
+use egui::{Align2, Color32, FontId, Sense, Ui, WidgetInfo, vec2};
+
+/// The result that a panel is about.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub enum About {
+    /// The result that is shown: the pinned or the newest one.
+    Shown,
+    /// The newest result, also while the pinned one is shown.
+    Newest,
+    /// No result, or both.
+    None,
+}
+
+impl About {
+    /// What follows the title of the panel: the name of the result, while the pinned one is shown.
+    pub fn suffix(self, state: &State) -> &'static str {
+        match self {
+            Self::Shown if state.shows_pinned() => " (A, pinned)",
+            Self::Newest if state.shows_pinned() => " (B, newest)",
+            _ => "",
+        }
+    }
+
+    /// Whether the panel shows the result before, while the newer one takes long to compute.
+    fn is_older(self, state: &State) -> bool {
+        let can_be_older = match self {
+            Self::Shown => !state.shows_pinned(),
+            Self::Newest => true,
+            Self::None => false,
+        };
+        let takes_long = state.preview.is_some() || is_work_shown(state.jobs.analysis.as_ref());
+        can_be_older && takes_long && state.newest.is_some() && !state.is_current()
+    }
+
+    /// Dims a panel that shows the result before, and says so in its lower right corner. `ground`: the color of the panel.
+    pub fn mark(self, ui: &Ui, cx: &PanelContext, ground: Color32) {
+        if cx.is_export || !self.is_older(cx.state) {
+            return;
+        }
+        let (painter, full) = (ui.painter(), ui.max_rect());
+        painter.rect_filled(full, 0.0, ground.gamma_multiply(0.55));
+        let text = "the result before \u{b7} computing\u{2026}";
+        let font = FontId::proportional(SMALL_PT);
+        let galley = painter.layout_no_wrap(text.to_owned(), font, cx.palette.text);
+        let place = full.right_bottom() - vec2(8.0, 8.0);
+        let area = Align2::RIGHT_BOTTOM.anchor_size(place, galley.size() + vec2(12.0, 6.0));
+        painter.rect(area, 3.0, cx.palette.panel, (1.0, cx.palette.line), egui::StrokeKind::Inside);
+        painter.galley(area.min + vec2(6.0, 3.0), galley, cx.palette.text);
+        let label = ui.interact(area, ui.scope_id().with("the result before"), Sense::hover());
+        label.widget_info(|| WidgetInfo::labeled(Role::Label, true, text));
+    }
+}
