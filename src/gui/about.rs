@@ -15,6 +15,8 @@ pub enum About {
     Shown,
     /// The newest result, also while the pinned one is shown.
     Newest,
+    /// What the newest result is to be made of, which is never older than it.
+    Request,
     /// No result, or both.
     None,
 }
@@ -24,7 +26,7 @@ impl About {
     pub fn suffix(self, state: &State) -> &'static str {
         match self {
             Self::Shown if state.shows_pinned() => " (A, pinned)",
-            Self::Newest if state.shows_pinned() => " (B, newest)",
+            Self::Newest | Self::Request if state.shows_pinned() => " (B, newest)",
             _ => "",
         }
     }
@@ -34,7 +36,7 @@ impl About {
         let can_be_older = match self {
             Self::Shown => !state.shows_pinned(),
             Self::Newest => true,
-            Self::None => false,
+            Self::Request | Self::None => false,
         };
         let takes_long = state.preview.is_some() || is_work_shown(state.jobs.analysis.as_ref());
         can_be_older && takes_long && state.newest.is_some() && !state.is_current()
@@ -46,7 +48,7 @@ impl About {
             return;
         }
         let (painter, full) = (ui.painter(), ui.max_rect());
-        painter.rect_filled(full, 0.0, ground.gamma_multiply(0.55));
+        painter.rect_filled(full, 0.0, ground.gamma_multiply(0.45));
         let text = "the result before \u{b7} computing\u{2026}";
         let font = FontId::proportional(SMALL_PT);
         let galley = painter.layout_no_wrap(text.to_owned(), font, cx.palette.text);

@@ -13,6 +13,12 @@ use egui::{ComboBox, DragValue, Response, RichText, ScrollArea, Ui, WidgetInfo};
 /// Number of pixels in a new condition on a region's size.
 const DEFAULT_PIXELS: u32 = 1000;
 
+/// Width of a panel in which a breakpoint has one line, points.
+const ONE_LINE_PT: f32 = 520.0;
+
+/// Indentation of a breakpoint's arguments in a line of their own, points.
+const INDENT_PT: f32 = 40.0;
+
 /// The kinds of conditions.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum ConditionKind {
@@ -89,9 +95,7 @@ impl BreakpointsPanel {
                 });
                 let mut removed = None;
                 for (index, breakpoint) in breakpoints.iter_mut().enumerate() {
-                    let removed_row =
-                        ui.push_id(index, |ui| ui.horizontal_wrapped(|ui| row(ui, cx, index, breakpoint)));
-                    if removed_row.inner.inner {
+                    if ui.push_id(index, |ui| row(ui, cx, index, breakpoint)).inner {
                         removed = Some(index);
                     }
                 }
@@ -108,8 +112,39 @@ impl BreakpointsPanel {
     }
 }
 
-/// Shows one breakpoint; returns whether the button "Remove" was clicked.
+/// Shows one breakpoint, in a narrow panel with its arguments in a line of their own; returns whether the button "Remove" was clicked.
 fn row(ui: &mut Ui, cx: &mut PanelContext, index: usize, breakpoint: &mut Breakpoint) -> bool {
+    let number = index + 1;
+    let has_one_line = ui.available_width() >= ONE_LINE_PT;
+    let is_removed = ui.horizontal(|ui| {
+        enabled_and_number(ui, cx, index, breakpoint);
+        kind_control(ui, cx.state, number, &mut breakpoint.condition);
+        if has_one_line {
+            argument_controls(ui, cx, number, &mut breakpoint.condition);
+        }
+        remove_button(ui, number)
+    });
+    if !has_one_line {
+        ui.horizontal_wrapped(|ui| {
+            ui.add_space(INDENT_PT);
+            argument_controls(ui, cx, number, &mut breakpoint.condition);
+        });
+    }
+    if cx.state.debugger.stopped_by == Some(index) {
+        ui.label(RichText::new("stopped here").size(SMALL_PT).color(cx.palette.accent));
+    }
+    is_removed.inner
+}
+
+/// Shows the button that removes a breakpoint; returns whether it was clicked.
+fn remove_button(ui: &mut Ui, number: usize) -> bool {
+    let remove = ui.small_button("Remove").on_hover_text("Take this breakpoint away.");
+    remove.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Remove breakpoint {number}")));
+    remove.clicked()
+}
+
+/// Shows whether a breakpoint is enabled, and its number, a click on which selects what it is about.
+fn enabled_and_number(ui: &mut Ui, cx: &mut PanelContext, index: usize, breakpoint: &mut Breakpoint) {
     let number = index + 1;
     let stopped = cx.state.debugger.stopped_by == Some(index);
     let enabled = ui.checkbox(&mut breakpoint.enabled, "").on_hover_text("Whether it stops the cursor.");
@@ -132,14 +167,6 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, index: usize, breakpoint: &mut Breakp
     {
         cx.send(Edit::Select(Some(item)));
     }
-    kind_control(ui, cx.state, number, &mut breakpoint.condition);
-    argument_controls(ui, cx, number, &mut breakpoint.condition);
-    let remove = ui.small_button("Remove").on_hover_text("Take this breakpoint away.");
-    remove.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Remove breakpoint {number}")));
-    if stopped {
-        ui.label(RichText::new("stopped here").size(SMALL_PT).color(cx.palette.accent));
-    }
-    remove.clicked()
 }
 
 /// Shows the choice of the kind of a condition.

@@ -88,12 +88,6 @@ fn choices_of_menus() -> impl Iterator<Item = Entry> {
     all.map(|(action, name)| Entry { action, name })
 }
 
-/// The actions that the palette lists.
-#[cfg(test)]
-pub fn listed_actions() -> Vec<Action> {
-    entries().into_iter().map(|entry| entry.action).collect()
-}
-
 /// Whether a name contains every word of a query, in any order and case.
 fn matches(name: &str, query: &str) -> bool {
     let name = name.to_lowercase();
@@ -216,6 +210,8 @@ fn row(ui: &mut Ui, entry: &Entry, is_chosen: bool) -> egui::Response {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::app::State;
+    use crate::gui::menu::testing::shown_rows;
 
     #[test]
     fn every_action_is_listed_once_under_a_name_of_its_own() {
@@ -227,6 +223,22 @@ mod tests {
         }
         assert!(entries.iter().any(|entry| entry.action == Action::Show(Pane::Inspector)));
         assert!(entries.iter().any(|entry| entry.action == Action::Layer(Layer::Confidence)));
+    }
+
+    #[test]
+    fn every_row_of_the_menus_and_every_key_is_listed() {
+        let (shown, unnamed) = shown_rows(&State::default());
+        let entries = entries();
+        let keyed = named_actions().map(|(_, _, action)| action);
+        for action in shown.iter().copied().chain(keyed) {
+            let opens_a_list = matches!(action, Action::Palette | Action::Menus);
+            assert!(opens_a_list || entries.iter().any(|entry| entry.action == action), "{action:?}");
+        }
+        // Submenus, and the name of the photograph.
+        let no_commands = ["Open recent", "Sample scenes", "Read as", "Presets of table 6", ""];
+        let forgotten: Vec<_> = unnamed.iter().filter(|name| !no_commands.contains(&name.as_str())).collect();
+        assert!(forgotten.is_empty(), "rows without an action: {forgotten:?}");
+        assert!(shown.len() > 60, "{}", shown.len());
     }
 
     #[test]

@@ -94,7 +94,7 @@ panes! {
         show: |panels, ui, cx| panels.geometry.show(ui, cx),
     };
     Parameters {} PaneRow {
-        about: About::Newest,
+        about: About::Request,
         background: |palette| palette.panel,
         tabs: TabGroup::Parameters,
         show: |_, ui, cx| super::parameters::show(ui, cx),
@@ -118,7 +118,7 @@ panes! {
         show: |panels, ui, cx| panels.compare.show(ui, cx),
     };
     History { history: super::history_panel::HistoryPanel } PaneRow {
-        about: About::Newest,
+        about: About::Request,
         background: |palette| palette.panel,
         tabs: TabGroup::Tables,
         show: |panels, ui, cx| panels.history.show(ui, cx),

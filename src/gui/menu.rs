@@ -1,5 +1,8 @@
 //! The menu bar: every action by its name, and the status line.
 
+#[cfg(test)]
+pub mod testing;
+
 use super::action::{Action, DebugAction, ViewStep};
 use super::dock::Dock;
 use super::menu_keys::{MenuKeys, submenu};
@@ -91,7 +94,7 @@ fn choice(
 fn row(ui: &mut Ui, cx: &mut PanelContext, widget: impl Widget, action: Action, enabled: bool) -> Response {
     let row = ui.add_enabled(enabled, widget);
     #[cfg(test)]
-    tests::note(ui, row.id, action);
+    testing::note(ui, row.id, action);
     if row.clicked() {
         cx.act(action);
     }
@@ -227,7 +230,7 @@ fn view(ui: &mut Ui, cx: &mut PanelContext, dock: &mut Dock) {
         let mut visible = dock.is_visible(pane);
         let checkbox = ui.add(Checkbox::new(&mut visible, pane.title()));
         #[cfg(test)]
-        tests::note(ui, checkbox.id, Action::Show(pane));
+        testing::note(ui, checkbox.id, Action::Show(pane));
         if checkbox.changed() {
             dock.set_visible(pane, visible);
         }
@@ -314,80 +317,4 @@ fn help(ui: &mut Ui, cx: &mut PanelContext) {
     ui.separator();
     ui.label(format!("Dichroscope {}", env!("CARGO_PKG_VERSION")));
     ui.hyperlink_to("Klinker, Shafer & Kanade 1990", "https://doi.org/10.1007/BF00126399");
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::app::State;
-    use crate::gui::command_palette::listed_actions;
-    use crate::gui::theme::ThemeColors;
-    use egui::accesskit::Role;
-    use egui::{Context, Id};
-
-    /// Notes the action of a row, by the row's widget.
-    pub fn note(ui: &Ui, row: Id, action: Action) {
-        ui.data_mut(|data| data.get_temp_mut_or_default::<Vec<(Id, Action)>>(Id::NULL).push((row, action)));
-    }
-
-    /// The actions of the rows that menus show, and the names of rows that have no action.
-    fn shown_rows(state: &State) -> (Vec<Action>, Vec<String>) {
-        let (ctx, palette) = (Context::default(), ThemeColors::of(Theme::Dark));
-        let (mut commands, mut actions, mut dock) = (Vec::new(), Vec::new(), Dock::default());
-        let mut unnamed = Vec::new();
-        let _ = ctx.run_ui(egui::RawInput::default(), |ui| {
-            let mut cx = PanelContext {
-                state,
-                palette: &palette,
-                gpu: None,
-                is_export: false,
-                commands: &mut commands,
-                actions: &mut actions,
-                hovers: false,
-            };
-            file(ui, &mut cx);
-            recent(ui, &mut cx);
-            samples(ui, &mut cx);
-            read_as(ui, &mut cx);
-            open_photographs(ui, &mut cx);
-            edit(ui, &mut cx);
-            view(ui, &mut cx, &mut dock);
-            analyze(ui, &mut cx);
-            for preset in Preset::ALL {
-                item(ui, &mut cx, preset.title(), Action::Preset(preset), true);
-            }
-            decisions(ui, &mut cx);
-            help(ui, &mut cx);
-            let rows = noted(ui.ctx());
-            let roles = [Some(Role::Button), Some(Role::CheckBox), Some(Role::RadioButton)];
-            unnamed = ui.ctx().viewport(|viewport| {
-                let widgets = &viewport.this_pass.widgets;
-                let of_layer = widgets.layers().flat_map(|(_, rects)| rects.iter().map(|rect| rect.id));
-                let infos = of_layer.filter_map(|id| Some((id, widgets.info(id)?)));
-                let without = infos
-                    .filter(|(id, info)| roles.contains(&info.role) && rows.iter().all(|(row, _)| row != id));
-                without.map(|(_, info)| info.label.clone().unwrap_or_default()).collect()
-            });
-        });
-        (noted(&ctx).into_iter().map(|(_, action)| action).collect(), unnamed)
-    }
-
-    fn noted(ctx: &Context) -> Vec<(Id, Action)> {
-        ctx.data(|data| data.get_temp(Id::NULL)).unwrap_or_default()
-    }
-
-    #[test]
-    fn the_palette_lists_every_row_of_the_menus() {
-        let (shown, unnamed) = shown_rows(&State::default());
-        let listed = listed_actions();
-        for action in &shown {
-            let opens_lists = matches!(action, Action::Palette | Action::Menus);
-            assert!(opens_lists || listed.contains(action), "{action:?} is in a menu and not in the palette");
-        }
-        // Submenus, and the names of photographs.
-        let submenus = ["Open recent", "Sample scenes", "Read as", "Presets of table 6", ""];
-        let forgotten: Vec<_> = unnamed.iter().filter(|name| !submenus.contains(&name.as_str())).collect();
-        assert!(forgotten.is_empty(), "rows without an action: {forgotten:?}");
-        assert!(shown.len() > 60, "{}", shown.len());
-    }
 }

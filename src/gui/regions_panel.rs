@@ -66,7 +66,10 @@ const COLUMNS: [(SortKey, &str, f32, &str); 8] = [
 ];
 
 /// Width of a column that shows a vector by its color alone, points.
-const CHIP_COLUMN_PT: f32 = 30.0;
+const CHIP_COLUMN_PT: f32 = 24.0;
+
+/// Least width of the notes in a narrow panel, points: the notes are cut with dots, and whole in the tooltip.
+const NARROW_NOTES_PT: f32 = 60.0;
 
 /// Whether a column holds vectors.
 const fn is_vector(key: SortKey) -> bool {
@@ -115,7 +118,8 @@ impl RegionsPanel {
     /// Shows the table of the regions. Where the panel is narrow, vectors are shown by their colors alone, so that the notes
     /// have room.
     fn table(&mut self, ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
-        ui.spacing_mut().item_spacing = egui::vec2(6.0, 1.0);
+        let gap_pt = if ui.available_width() < width_with_numbers_of(SortKey::Body) { 4.0 } else { 6.0 };
+        ui.spacing_mut().item_spacing = egui::vec2(gap_pt, 1.0);
         let selected = cx.state.selected_region();
         let order = self.order(&shown.analysis.intrinsic.regions);
         let mut hovered = None;
@@ -127,6 +131,7 @@ impl RegionsPanel {
             let last = key == SortKey::Warnings;
             let width = match key {
                 SortKey::Body | SortKey::Surface if !shows_numbers(key) => CHIP_COLUMN_PT,
+                SortKey::Warnings if !shows_numbers(SortKey::Body) => NARROW_NOTES_PT,
                 SortKey::Warnings if !shows_numbers(SortKey::Surface) => 110.0,
                 _ => width,
             };

@@ -3,13 +3,14 @@
 use super::action::Action;
 use super::background_value::{BackgroundValue, SYNCHRONOUS_PX};
 use super::named_marks_list::NamedMarksList;
-use super::theme::SMALL_PT;
+use super::theme::{BODY_PT, SMALL_PT};
 use super::{PanelContext, widgets};
 use crate::app::Edit;
 use crate::raster::Mask;
 use crate::trace::Class;
 use crate::view::{Band, Item, Statistics, statistics, statistics_of};
-use egui::{Color32, Label, RichText, ScrollArea, Sense, Ui, pos2, vec2};
+use egui::text::{LayoutJob, TextFormat};
+use egui::{Color32, FontId, Label, RichText, ScrollArea, Sense, Ui, pos2, vec2};
 use std::sync::Arc;
 
 /// Height of a band's histogram, points.
@@ -124,9 +125,12 @@ fn buttons(ui: &mut Ui, cx: &mut PanelContext, subject: &str) {
 fn facts(ui: &mut Ui, cx: &PanelContext, found: &Statistics) {
     ui.spacing_mut().item_spacing.x = 4.0;
     let fact = |ui: &mut Ui, name: &str, value: String, tip: &str| {
-        let name = RichText::new(name).size(SMALL_PT).color(cx.palette.secondary);
-        ui.add(Label::new(name).extend()).on_hover_text(tip);
-        ui.add(Label::new(value).selectable(true).extend()).on_hover_text(tip);
+        // One widget, so that the end of a line does not part name and value.
+        let mut job = LayoutJob::default();
+        let font = FontId::proportional;
+        job.append(name, 0.0, TextFormat::simple(font(SMALL_PT), cx.palette.secondary));
+        job.append(&value, 4.0, TextFormat::simple(font(BODY_PT), cx.palette.text));
+        ui.add(Label::new(job).selectable(true).extend()).on_hover_text(tip);
         ui.add_space(8.0);
     };
     fact(ui, "pixels", crate::view::grouped(found.pixels), "How many pixels are selected.");

@@ -237,6 +237,7 @@ pub fn show_help(ui: &mut Ui, cx: &PanelContext, open: &mut bool) {
         .collapsible(false)
         .resizable(false)
         .scroll([false, true])
+        .default_height((room.y - 120.0).max(80.0))
         .max_height((room.y - 120.0).max(80.0))
         .anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO)
         .show(&ctx, |ui| {
@@ -269,6 +270,8 @@ fn show_group(ui: &mut Ui, cx: &PanelContext, group: &str, column_pt: f32) {
     for (keys, description) in rows {
         ui.horizontal_top(|ui| {
             of_width(ui, keys_pt, |ui| {
+                // The smaller letters stand on the line of the larger ones.
+                ui.add_space(1.5);
                 ui.add(egui::Label::new(RichText::new(keys).size(SMALL_PT).color(cx.palette.accent)).wrap());
             });
             of_width(ui, column_pt - keys_pt - GAP_PT, |ui| {

@@ -12,9 +12,6 @@ use crate::trace::Replay;
 use crate::view::{Clause, ClauseSubject, CubeSettings, ImageSettings, Item, Layer, ResultSnapshot, verdict};
 use egui::{Align2, Area, Frame, Label, Link, Order, RichText, ScrollArea, Sense, Ui};
 
-/// What the verdict on the pinned result begins with.
-const OF_PINNED: &str = "A, pinned:";
-
 /// Largest width of the sentence over the picture, points.
 const OVER_PICTURE_PT: f32 = 520.0;
 
@@ -34,8 +31,7 @@ fn clauses_with_texts(shown: &ResultSnapshot) -> (Vec<Clause>, Vec<String>) {
 /// is on the line or on the whole sentence.
 pub fn show_line(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
     let (clauses, texts) = clauses_with_texts(shown);
-    let of_pinned = if cx.state.shows_pinned() { format!("{OF_PINNED} ") } else { String::new() };
-    let sentence = of_pinned + &texts.join(" ");
+    let sentence = texts.join(" ");
     let font = egui::FontId::proportional(BODY_PT);
     let width = ui.painter().layout_no_wrap(sentence.clone(), font, cx.palette.text).size().x;
     if width <= ui.available_width() {
@@ -78,9 +74,6 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
         ui.spacing_mut().item_spacing = egui::vec2(5.0, 2.0);
         ui.spacing_mut().interact_size.y = 0.0;
         ui.style_mut().wrap_mode = fits.then_some(egui::TextWrapMode::Extend);
-        if cx.state.shows_pinned() {
-            ui.label(RichText::new(OF_PINNED).size(BODY_PT).color(cx.palette.accent));
-        }
         for (clause, text) in clauses.iter().zip(texts) {
             show_clause(ui, cx, clause, text);
         }

@@ -7,7 +7,7 @@ use crate::view::{CurrentHypothesis, Watch, WatchedPixel};
 use egui::{Align, Label, Layout, RichText, ScrollArea, Ui, vec2};
 
 /// Width of the names, points.
-const NAME_PT: f32 = 76.0;
+const NAME_PT: f32 = 84.0;
 /// Width of all columns of numbers together, points.
 const NUMBERS_PT: f32 = 126.0;
 /// Width of a unit with the distance before it, points.

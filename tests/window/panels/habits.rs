@@ -177,7 +177,6 @@ fn the_result_shown_and_the_copied_command_line_are_named() {
     assert!(!says(&window, "Parameters (B, newest)"));
     apply(&mut window, ViewCommand::ShowPinned(true));
     assert!(says(&window, "A: the pinned result"));
-    assert!(says(&window, "A, pinned:"), "the verdict");
     assert!(says(&window, "Parameters (B, newest)") && says(&window, "Regions (A, pinned)"), "the tabs");
     assert!(says(&window, "The history is that of the newest result") || !says(&window, "History of"));
     choose(&mut window, "Analyze", "Copy as command line");
