@@ -129,19 +129,34 @@ fn the_body_image_as_input_stays_as_it_is() {
     }
 }
 
-#[test]
-fn a_shift_of_the_picture_hardly_changes_the_result() {
-    for (image, params, body, scene) in with_highlights() {
+/// The worst similarity of the result of each scene to that of the scene shifted by 1 to 11 px, decibels, with the refinements that `with` leaves on.
+fn worst_similarity_after_a_shift(with: impl Fn(Params) -> Params) -> f64 {
+    let mut worst = f64::INFINITY;
+    for (image, params, ..) in with_highlights() {
+        let params = with(params);
+        let body = analyze(&image, &params).intrinsic.body.clone();
         for shift in [1, 4, 7, 11] {
             let shifted = |raster: &Raster<[f32; 3]>| {
                 let rows = (shift..raster.height()).flat_map(|y| raster.row(y)[shift..].to_vec());
                 Raster::from_vec(raster.width() - shift, raster.height() - shift, rows.collect()).unwrap()
             };
             let found = analyze(&LinearImage::new(shifted(&image.pixels), Some(FULL_SCALE as f32)), &params);
-            let alike = psnr_db(&found.intrinsic.body, &shifted(&body));
-            assert!(alike > 60.0, "{scene}, shift {shift} px: {alike} dB");
+            worst = worst.min(psnr_db(&found.intrinsic.body, &shifted(&body)));
         }
     }
+    worst
+}
+
+#[test]
+fn a_shift_of_the_picture_hardly_changes_the_result() {
+    let without = worst_similarity_after_a_shift(|params| Params {
+        refine: Refine { hue_restoration: false, ..params.refine },
+        ..params
+    });
+    assert!(without > 60.0, "without bands restored by hue: {without} dB");
+    // A clipped check of a print, whose hue is taken from the checks around, changes by less than the noise.
+    let with = worst_similarity_after_a_shift(|params| params);
+    assert!(with > 50.0, "{with} dB");
 }
 
 #[test]

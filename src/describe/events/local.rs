@@ -130,7 +130,7 @@ impl Describe for PlausibilityTested {
 
 impl Describe for RepairTried {
     fn sentence(&self, names: &Names) -> String {
-        let Self { pixel, pixels, ring, inner, outer, spread, around, other_bands, verdict, .. } = *self;
+        let Self { pixel, pixels, ring, inner, outer, spread, around, verdict, .. } = *self;
         let blob = format!("the blob of {} at {}", count(pixels, "clipped pixel"), names.pixel(pixel));
         let [share, least] = [ring.value, ring.limit].map(|share| percent(f64::from(share)));
         match verdict {
@@ -152,11 +152,6 @@ impl Describe for RepairTried {
                 "{blob} is left: {:.0} highlight pixels lie around it, at least {:.0} are needed",
                 around.value, around.limit
             ),
-            RepairVerdict::OtherBands => format!(
-                "{blob} is left: the bands that do not clip cannot be those of the body around under a highlight in {} of it (at most {})",
-                percent(f64::from(other_bands.value)),
-                percent(f64::from(other_bands.limit))
-            ),
             RepairVerdict::NoRise => format!(
                 "{blob} is left: the highlight does not rise towards it, {inner:.1} counts next to it, {outer:.1} farther out"
             ),
@@ -173,14 +168,12 @@ impl Describe for RepairTried {
                 "outer": short(self.outer),
                 "spread": short(self.spread.value),
                 "around": short(self.around.value),
-                "other_bands": short(self.other_bands.value),
                 "verdict": self.verdict.name(),
             }),
             json!({
                 "ring": short(self.ring.limit),
                 "spread": short(self.spread.limit),
                 "around": short(self.around.limit),
-                "other_bands": short(self.other_bands.limit),
             }),
         )
     }
@@ -196,7 +189,6 @@ impl Describe for RepairTried {
             outer: 20.0,
             spread: crate::trace::Measured::new(0.25, 0.5),
             around: crate::trace::Measured::new(20.0, 6.0),
-            other_bands: crate::trace::Measured::new(0.1, 0.5),
             verdict: RepairVerdict::Filled,
         }
     }

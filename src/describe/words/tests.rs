@@ -226,7 +226,6 @@ fn every_verdict_on_a_blob_is_another_sentence_with_its_figures() {
         outer: 20.0,
         spread: Measured::new(0.7, 0.5),
         around: Measured::new(5.0, 6.0),
-        other_bands: Measured::new(0.8, 0.5),
         verdict: RepairVerdict::Filled,
     };
     let verdicts = [
@@ -239,7 +238,6 @@ fn every_verdict_on_a_blob_is_another_sentence_with_its_figures() {
         (RepairVerdict::NoHighlight, "62 % of its ring of 2 px are highlight, at least 40 % are needed"),
         (RepairVerdict::Uneven, "varies by 70 % of its mean (at most 50 %)"),
         (RepairVerdict::TooSmall, "5 highlight pixels lie around it, at least 6 are needed"),
-        (RepairVerdict::OtherBands, "under a highlight in 80 % of it (at most 50 %)"),
         (RepairVerdict::NoRise, "does not rise towards it, 40.0 counts"),
     ];
     for (verdict, part) in verdicts {

@@ -3,18 +3,15 @@
 //! A blob of clipped pixels is filled where at least 40 % of the ring of 2 px around the blob are highlight, surface
 //! reflection rises towards the blob, the body reflection of the ring is that of one material (its standard deviation
 //! is at most half its mean, or that of the highlight pixels alone at most .3 of their mean, as the other pixels may have surface
-//! reflection that is not known), the highlight around the blob is at least half as large as the blob, and the bands
-//! of the blob that do not clip can be those of the body around under a highlight (refinement `clipped_bands`): a green check that clips among red ones is no highlight. Blobs of more
+//! reflection that is not known), and the highlight around the blob is at least half as large as the blob. Blobs of more
 //! than 40,000 pixels are not filled. The fill is harmonic: the smoothest that is continuous with the ring. Other
 //! clipped pixels (white paper, the sky) do not change, and the surface reflection around them fades out towards them,
 //! so that no hole is left in the middle of what may be a highlight.
 
 use super::desaturation_map::DesaturationMap;
 use super::surroundings::{Surroundings, harmonic};
-use crate::color::{Vec3, vec3};
 use crate::intrinsic::images::Images;
 use crate::raster::{ComponentSearch, Connectivity, Mask, PixelIndex, Raster, blur};
-use crate::reflection::ClippedColorTest;
 use crate::segment::AnalysisInput;
 use crate::trace::{Measured, PixelKind, Ramp, RepairTried, RepairVerdict};
 
@@ -31,8 +28,6 @@ const LEAST_AROUND: f32 = 0.5;
 /// Distance around a blob within which highlight pixels are counted: the larger of this value and half the square root
 /// of the blob's pixels, pixels.
 const AROUND_PX: f32 = 3.0;
-/// Largest share of the blob whose bands that do not clip cannot be those of the body around.
-const MOST_OTHER_BANDS: f32 = 0.5;
 /// Most pixels of a blob that is filled. Larger blobs are usually windows or the sky.
 const MOST_PIXELS: usize = 40_000;
 /// Width of the Gaussian by which surface reflection fades out towards clipped pixels that are not filled, pixels.
@@ -167,26 +162,6 @@ impl LocalAmounts<'_> {
         Measured::new(relative_deviation(highlights), MOST_HIGHLIGHT_SPREAD)
     }
 
-    /// Share of a blob's pixels whose bands that do not clip cannot be those of the mean body reflection of its `ring` under a highlight,
-    /// 0…1; 0 without the refinement.
-    fn other_bands(&self, input: &AnalysisInput, blob: &[usize], ring: impl Iterator<Item = usize>) -> f32 {
-        if !input.refine.clipped_bands {
-            return 0.0;
-        }
-        let body = ring.fold(Vec3::zeros(), |sum, pixel| {
-            let amount = f64::from(self.amount(pixel));
-            sum + vec3(input.pixels[pixel]) - vec3(self.map.lamps.of(pixel).per_amount) * amount
-        });
-        let Some(body) = body.try_normalize(0.0) else { return 0.0 };
-        let refused = blob.iter().filter(|&&pixel| {
-            let surface = vec3(self.map.lamps.of(pixel).per_amount).normalize();
-            let threshold = input.used.clip_threshold as f32;
-            let test = ClippedColorTest::new(&Vec3::zeros(), &body, &surface, threshold);
-            test.refusal(input.pixels[pixel]).is_some()
-        });
-        refused.count() as f32 / blob.len().max(1) as f32
-    }
-
     /// The verdict on a blob by the pixels around it.
     fn tried(&self, input: &AnalysisInput, blob: &[usize], around: &Around) -> RepairTried {
         let [inner, outer] = &around.rings;
@@ -200,7 +175,6 @@ impl LocalAmounts<'_> {
         let spread = self.spread(input, ring_pixels());
         let highlights = Measured::new(around.highlights as f32, LEAST_AROUND * blob.len() as f32);
         let rise = [mean(inner), mean(outer)];
-        let other_bands = Measured::new(self.other_bands(input, blob, ring_pixels()), MOST_OTHER_BANDS);
         let verdict = if blob.len() > MOST_PIXELS {
             RepairVerdict::TooLarge
         } else if inner.is_empty() || outer.is_empty() {
@@ -213,8 +187,6 @@ impl LocalAmounts<'_> {
             RepairVerdict::Uneven
         } else if highlights.value < highlights.limit {
             RepairVerdict::TooSmall
-        } else if other_bands.value > other_bands.limit {
-            RepairVerdict::OtherBands
         } else {
             RepairVerdict::Filled
         };
@@ -229,7 +201,6 @@ impl LocalAmounts<'_> {
             outer,
             spread,
             around: highlights,
-            other_bands,
             verdict,
         }
     }

@@ -179,9 +179,6 @@ pub struct RepairTried {
     pub spread: Measured<f32>,
     /// Number of highlight pixels around the blob, and the least number at which the blob is filled.
     pub around: Measured<f32>,
-    /// Share of the blob whose bands that do not clip cannot be those of the body around under a highlight, 0…1, and the largest share at
-    /// which the blob is filled.
-    pub other_bands: Measured<f32>,
     /// Whether the blob was filled, or why not.
     pub verdict: RepairVerdict,
 }
@@ -204,8 +201,6 @@ pub enum RepairVerdict {
     Uneven,
     /// The highlight around the blob is too small for the blob.
     TooSmall,
-    /// The bands that do not clip cannot be those of the body around under a highlight.
-    OtherBands,
 }
 
 impl RepairVerdict {
@@ -219,7 +214,6 @@ impl RepairVerdict {
             Self::Uneven => "uneven",
             Self::TooSmall => "too_small",
             Self::NoRise => "no_rise",
-            Self::OtherBands => "other_bands",
         }
     }
 }

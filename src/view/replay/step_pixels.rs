@@ -138,7 +138,6 @@ mod tests {
                 outer: 1.0,
                 spread: Measured::new(0.1, 0.5),
                 around: Measured::new(2.0, 1.0),
-                other_bands: Measured::new(0.1, 0.5),
                 verdict,
             });
         }
