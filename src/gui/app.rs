@@ -9,6 +9,7 @@ use super::files::Dialogs;
 use super::keyboard_focus::KeyboardFocus;
 use super::menu_keys::MenuKeys;
 use super::pane::Pane;
+use super::panel_context::LastHover;
 use super::theme::{self, ThemeColors};
 use super::view_export::ViewExporter;
 use super::{PanelContext, menu, notices, perform, shortcuts, task, timeline_panel, widgets};
@@ -36,8 +37,6 @@ pub struct App {
 struct WindowContent {
     dock: Dock,
     compact_dock: CompactDock,
-    /// Whether the panels were tabs of one group in the last frame.
-    is_compact: bool,
     /// The arrangement that was last sent to the state.
     layout: String,
     /// The camera that was last sent to the state.
@@ -49,8 +48,7 @@ struct WindowContent {
     notices: notices::Notices,
     keyboard_focus: KeyboardFocus,
     menu_keys: MenuKeys,
-    /// Whether an item of a panel was under the pointer in the last frame.
-    hovers: bool,
+    last_hover: LastHover,
     /// The line of the profile in the last frame.
     profile: ProfileLine,
     /// Whether a font for further scripts was looked for.
@@ -273,7 +271,7 @@ impl WindowContent {
         if let Some(pane) = self.single_pane {
             let frame = egui::Frame::new().fill(cx.palette.panel);
             egui::CentralPanel::default().frame(frame).show(ui, |ui| self.panels.show(pane, ui, cx));
-            self.end_hover(cx);
+            self.last_hover.end(cx);
             return;
         }
         let menu_frame =
@@ -297,8 +295,8 @@ impl WindowContent {
         if let Some(keys) = held_keys {
             ui.ctx().input_mut(|input| input.events.extend(keys));
         }
-        self.end_hover(cx);
-        let timeline = self.dock.rect_of(Pane::Timeline).filter(|_| !self.is_compact);
+        self.last_hover.end(cx);
+        let timeline = self.dock.rect_of(Pane::Timeline).filter(|_| !self.compact_dock.is_in_use);
         let floor = timeline.map_or(ui.ctx().content_rect().bottom(), |timeline| timeline.top() - TAB_BAR_PT);
         self.notices.show(ui, cx, floor);
         self.command_palette.show(ui, cx);
@@ -313,17 +311,10 @@ impl WindowContent {
         self.keyboard_focus.show(ui.ctx(), cx.palette);
     }
 
-    /// Forgets what was under the pointer, once the pointer is on another panel, on the menu bar or out of the window.
-    fn end_hover(&mut self, cx: &mut PanelContext) {
-        if std::mem::replace(&mut self.hovers, cx.hovers) && !cx.hovers {
-            cx.send(ViewCommand::Hover(None));
-        }
-    }
-
     /// Shows the panels as they are arranged, or where there is no room for that, as tabs of one group.
     fn show_panels(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
-        self.is_compact = CompactDock::is_needed(ui.available_size());
-        if self.is_compact {
+        self.compact_dock.is_in_use = CompactDock::is_needed(ui.available_size());
+        if self.compact_dock.is_in_use {
             self.compact_dock.show(ui, &self.dock, &mut self.panels, cx);
         } else {
             self.dock.show(ui, &mut self.panels, cx);

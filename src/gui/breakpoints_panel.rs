@@ -16,6 +16,9 @@ const DEFAULT_PIXELS: u32 = 1000;
 /// Width of a panel in which a breakpoint has one line, points.
 const ONE_LINE_PT: f32 = 520.0;
 
+/// Width of the button that removes a breakpoint, with the distance before it, points.
+const REMOVE_PT: f32 = 70.0;
+
 /// Indentation of a breakpoint's arguments in a line of their own, points.
 const INDENT_PT: f32 = 40.0;
 
@@ -174,7 +177,9 @@ fn kind_control(ui: &mut Ui, state: &State, number: usize, condition: &mut Condi
     let kind = ConditionKind::of(*condition);
     let (_, name, tip) =
         ConditionKind::ALL.into_iter().find(|(known, ..)| *known == kind).unwrap_or(ConditionKind::ALL[0]);
-    let combo = ComboBox::from_id_salt("kind").width(138.0).selected_text(name);
+    // The button that removes the breakpoint stays in the line.
+    let width = (ui.available_width() - REMOVE_PT).clamp(60.0, 138.0);
+    let combo = ComboBox::from_id_salt("kind").width(width).truncate().selected_text(name);
     let combo = combo.show_ui(ui, |ui| {
         for (choice, name, tip) in ConditionKind::ALL {
             let chosen = ui.selectable_label(choice == kind, name).on_hover_text(tip).clicked();

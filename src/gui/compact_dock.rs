@@ -12,6 +12,8 @@ const LEAST_ROOM_PT: Vec2 = vec2(620.0, 420.0);
 /// All visible panels as tabs of one group. The arrangement that a person made stays as it is.
 #[derive(Default)]
 pub struct CompactDock {
+    /// Whether the panels are tabs of one group in this frame.
+    pub is_in_use: bool,
     /// The tabs; none before the room was small for the first time.
     tabs: Option<Tabs>,
 }

@@ -9,8 +9,10 @@ use egui::{Context, FocusDirection, Id, Key, Memory, Modifiers, Popup, Ui};
 pub struct MenuKeys {
     /// Popups and buttons of the menus of the last frame, from left to right.
     menus: Vec<Menu>,
-    /// The widget that had the focus before a key opened a menu; none while no menu is open that a key opened.
-    focus_before: Option<Option<Id>>,
+    /// Whether a key opened the menu that is open.
+    is_open_by_key: bool,
+    /// The widget that had the focus before a key opened the menu.
+    focus_before: Option<Id>,
 }
 
 /// A menu of the bar.
@@ -118,7 +120,9 @@ impl MenuKeys {
     /// Opens a menu and gives its button the focus, from where the arrow keys go on.
     fn open(&mut self, ctx: &Context, index: usize) {
         let Some(menu) = self.menus.get(index) else { return };
-        self.focus_before.get_or_insert_with(|| ctx.memory(Memory::focused));
+        if !std::mem::replace(&mut self.is_open_by_key, true) {
+            self.focus_before = ctx.memory(Memory::focused);
+        }
         Popup::open_id(ctx, menu.popup);
         ctx.memory_mut(|memory| {
             memory.move_focus(FocusDirection::None);
@@ -129,7 +133,10 @@ impl MenuKeys {
 
     /// Gives the focus back, after a menu that a key opened was closed.
     fn give_focus_back(&mut self, ctx: &Context) {
-        let Some(before) = self.focus_before.take() else { return };
+        if !std::mem::take(&mut self.is_open_by_key) {
+            return;
+        }
+        let before = self.focus_before.take();
         ctx.memory_mut(|memory| match (before, memory.focused()) {
             (Some(id), _) => memory.request_focus(id),
             (None, Some(id)) => memory.surrender_focus(id),

@@ -18,6 +18,8 @@ const SUCCESS_SECONDS: f64 = 6.0;
 pub struct Notices {
     /// The notices of successes with the time at which each was first shown, seconds.
     shown_since: Vec<(u64, f64)>,
+    /// Number of notices in the last frame.
+    count: usize,
 }
 
 impl Notices {
@@ -25,13 +27,19 @@ impl Notices {
     pub fn show(&mut self, ui: &Ui, cx: &mut PanelContext, floor: f32) {
         let state = cx.state;
         if state.notices.is_empty() {
-            self.shown_since.clear();
+            *self = Self::default();
             return;
         }
         self.let_successes_go(ui, cx);
         let room = ui.ctx().content_rect();
         let place = pos2(room.center().x, floor - 8.0);
-        let area = Area::new(Id::unique("notices")).order(Order::Foreground).pivot(Align2::CENTER_BOTTOM);
+        let id = Id::unique("notices");
+        if ui.memory(|memory| memory.area_rect(id)).is_none() || self.count != state.notices.len() {
+            // The notices are measured in this frame and shown in the next one.
+            self.count = state.notices.len();
+            ui.ctx().request_repaint();
+        }
+        let area = Area::new(id).order(Order::Foreground).pivot(Align2::CENTER_BOTTOM);
         let frame = Frame::popup(ui.style()).fill(cx.palette.panel).inner_margin(Margin::symmetric(8, 5));
         area.fixed_pos(place).constrain(true).show(ui.ctx(), |ui| {
             frame.show(ui, |ui| {

@@ -43,3 +43,17 @@ impl PanelContext<'_> {
         self.actions.push(action);
     }
 }
+
+/// Whether an item of a panel was under the pointer in the last frame.
+#[derive(Default)]
+pub struct LastHover(bool);
+
+impl LastHover {
+    /// Forgets what was under the pointer, once the pointer is on another panel, on the menu bar or out of the window. To be called after
+    /// the panels are shown.
+    pub fn end(&mut self, cx: &mut PanelContext) {
+        if std::mem::replace(&mut self.0, cx.hovers) && !cx.hovers {
+            cx.send(ViewCommand::Hover(None));
+        }
+    }
+}

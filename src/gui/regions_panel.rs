@@ -69,7 +69,7 @@ const COLUMNS: [(SortKey, &str, f32, &str); 8] = [
 const CHIP_COLUMN_PT: f32 = 24.0;
 
 /// Least width of the notes in a narrow panel, points: the notes are cut with dots, and whole in the tooltip.
-const NARROW_NOTES_PT: f32 = 60.0;
+const NARROW_NOTES_PT: f32 = 40.0;
 
 /// Whether a column holds vectors.
 const fn is_vector(key: SortKey) -> bool {
@@ -111,7 +111,12 @@ impl RegionsPanel {
                 // The verdict under the picture says why.
                 return widgets::placeholder(ui, cx.palette, "No region was found.");
             }
-            egui::ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| self.table(ui, cx, &shown));
+            // A scrolled area keeps the width of wider contents, which a panel that got narrower has no room for.
+            let width = ui.available_width();
+            egui::ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
+                ui.set_max_width(width);
+                self.table(ui, cx, &shown);
+            });
         });
     }
 

@@ -50,7 +50,7 @@ impl Track {
         self.navigate(ui, &response, &axis);
         let scale = Scale { axis: &axis, section: self.section, rect };
         let lanes = Lanes::of(rect);
-        self.handle_pointer(ui, cx, &response, &scale, &lanes, replay);
+        handle_pointer(ui, cx, &response, &scale, &lanes, replay);
         set_accessible_value(ui, cx, &response, replay);
         let columns = rect.width() as usize;
         let key = (generation, self.section, columns);
@@ -99,46 +99,45 @@ impl Track {
             self.section = self.section.panned(f64::from(-scroll.x / rect.width()));
         }
     }
+}
 
-    /// Sends the commands of the pointer: a click moves the cursor, a click with Shift runs to the step, a drag moves the
-    /// cursor with the pointer, a click on a block selects the block's region.
-    fn handle_pointer(
-        &mut self,
-        ui: &Ui,
-        cx: &mut PanelContext,
-        response: &Response,
-        scale: &Scale,
-        lanes: &Lanes,
-        replay: &Replay,
-    ) {
-        if response.clicked() || response.drag_started() {
-            response.request_focus();
-        }
-        let arrows = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
-        ui.memory_mut(|memory| memory.set_focus_lock_filter(track_id(), arrows));
-        let pointer = response.interact_pointer_pos().or(response.hover_pos());
-        let block = pointer
-            .filter(|pointer| lanes.blocks.contains(*pointer))
-            .and_then(|pointer| replay.trace().block_at(scale.step_at(pointer.x)?));
-        send_hover(cx, response.contains_pointer().then_some(block.as_ref()).flatten());
-        if response.hovered() && !response.dragged() {
-            ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
-        }
-        let Some(pointer) = response.interact_pointer_pos() else { return };
-        let runs_to = response.clicked() && ui.input(|input| input.modifiers.shift);
-        if response.clicked_by(PointerButton::Primary)
-            && !runs_to
-            && let Some(block) = block
-        {
-            select_block(cx, &block);
-        } else if response.dragged_by(PointerButton::Primary) || response.clicked_by(PointerButton::Primary) {
-            let n = scale.axis.taken_at(scale.place_at(pointer.x));
-            let direction = if n < replay.at() { Direction::Back } else { Direction::Forward };
-            if runs_to {
-                cx.send(Command::Debug(DebugCommand::RunTo(Goal::StepCount(n), direction)));
-            } else if n != replay.at() {
-                cx.send(Command::Debug(DebugCommand::Seek(n)));
-            }
+/// Sends the commands of the pointer: a click moves the cursor, a click with Shift runs to the step, a drag moves the
+/// cursor with the pointer, a click on a block selects the block's region.
+fn handle_pointer(
+    ui: &Ui,
+    cx: &mut PanelContext,
+    response: &Response,
+    scale: &Scale,
+    lanes: &Lanes,
+    replay: &Replay,
+) {
+    if response.clicked() || response.drag_started() {
+        response.request_focus();
+    }
+    let arrows = EventFilter { horizontal_arrows: true, ..EventFilter::default() };
+    ui.memory_mut(|memory| memory.set_focus_lock_filter(track_id(), arrows));
+    let pointer = response.interact_pointer_pos().or(response.hover_pos());
+    let block = pointer
+        .filter(|pointer| lanes.blocks.contains(*pointer))
+        .and_then(|pointer| replay.trace().block_at(scale.step_at(pointer.x)?));
+    send_hover(cx, response.contains_pointer().then_some(block.as_ref()).flatten());
+    if response.hovered() && !response.dragged() {
+        ui.ctx().set_cursor_icon(CursorIcon::PointingHand);
+    }
+    let Some(pointer) = response.interact_pointer_pos() else { return };
+    let runs_to = response.clicked() && ui.input(|input| input.modifiers.shift);
+    if response.clicked_by(PointerButton::Primary)
+        && !runs_to
+        && let Some(block) = block
+    {
+        select_block(cx, &block);
+    } else if response.dragged_by(PointerButton::Primary) || response.clicked_by(PointerButton::Primary) {
+        let n = scale.axis.taken_at(scale.place_at(pointer.x));
+        let direction = if n < replay.at() { Direction::Back } else { Direction::Forward };
+        if runs_to {
+            cx.send(Command::Debug(DebugCommand::RunTo(Goal::StepCount(n), direction)));
+        } else if n != replay.at() {
+            cx.send(Command::Debug(DebugCommand::Seek(n)));
         }
     }
 }

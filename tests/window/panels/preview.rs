@@ -1,12 +1,15 @@
 //! Tests of the preview: the result for the working picture of a large photograph, which is shown until the whole result is there.
 
-use crate::window::{SIZE, Window, apply, at, named, shown, size, state, tiny, with_state, words, zoom_in};
+use crate::window::{
+    SIZE, Window, apply, at, click, named, says, shown, size, state, tiny, with_state, words, zoom_in,
+};
 use dichroscope::analysis::{Analysis, Observer, Session};
 use dichroscope::app::{Application, Debugger, Edit, Executor, JobCommand, Preview, State, ViewCommand};
 use dichroscope::params::{Parameter, Params, Setting};
 use dichroscope::raster::{Blocks, PixelIndex, Raster};
 use dichroscope::view::{ImageSettings, Item, Layer, Origin, Picture, ResultSnapshot, Selection, paint};
 use egui::accesskit::Role;
+use egui_kittest::kittest::Queryable;
 use std::sync::Arc;
 
 /// Side of a block of the working picture, pixels. The photograph has 178 × 150 pixels: the last block of each row and of each
@@ -56,6 +59,34 @@ fn state_with_preview() -> State {
     state.generation += 1;
     state.preview = state.picture.as_ref().map(|picture| preview(picture, state.generation));
     state
+}
+
+#[test]
+fn panels_that_show_the_result_before_say_so() {
+    let before = "the result before";
+    let Some(mut window) = with_state(SIZE, state_with_preview()) else { return };
+    window.run_steps(2);
+    assert!(says(&window, before));
+    finish(&mut window);
+    assert!(!says(&window, before), "the whole result is there");
+}
+
+#[test]
+fn a_note_over_the_picture_can_be_dismissed() {
+    let note = "the moon shines into the picture";
+    let mut state_before = state_with_preview();
+    state_before.preview = None;
+    let before = state_before.newest.take().unwrap();
+    let mut analysis = before.analysis.clone();
+    analysis.warnings = vec![note.to_owned()];
+    let picture = Arc::clone(&before.picture);
+    let mut newest = ResultSnapshot::new(picture, before.params, analysis, before.region_colors.clone());
+    newest.generation = state_before.generation;
+    state_before.newest = Some(Arc::new(newest));
+    let Some(mut window) = with_state(SIZE, state_before) else { return };
+    window.run_steps(2);
+    click(&mut window, Role::Button, "Dismiss the note");
+    assert!(window.query_by_role_and_label(Role::Button, "Dismiss the note").is_none());
 }
 
 /// The preview of a state.
