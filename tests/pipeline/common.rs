@@ -3,6 +3,7 @@
 use crate::synthetic::{Rendered, Scene};
 use dichroscope::analysis::{Analysis, Session};
 use dichroscope::describe::{ImageFacts, Report, Scores};
+use dichroscope::intrinsic::Intrinsic;
 use dichroscope::params::{Method, Params, Reading, Readings};
 use dichroscope::photo::LinearImage;
 use dichroscope::raster::{Raster, RegionId, UNASSIGNED};
@@ -99,6 +100,17 @@ pub fn scores_of(truth: &GroundTruth, image: &LinearImage, analysis: &Analysis, 
     score(truth, &image.pixels, &outcome).unwrap()
 }
 
+/// Whether body and surface reflection of a pixel are its color; a clipped band that was restored has more light than the file keeps.
+fn is_whole(intrinsic: &Intrinsic, pixel: usize, color: [f32; 3], is_clipped: bool) -> bool {
+    (0..3).all(|band| {
+        let (body, input) = (intrinsic.body[pixel][band], color[band]);
+        let more = body + intrinsic.surface[pixel][band] - input;
+        // Ambient light is subtracted and added again, which rounds.
+        let rounding = 1e-5 * input.max(1.0);
+        (more.abs() <= rounding || (more > 0.0 && is_clipped)) && body <= input + rounding
+    })
+}
+
 /// Checks the invariants of every result: labels, report and pictures agree, and no number is NaN or infinite.
 ///
 /// Returns the violation as an error, so that property tests can shrink the input.
@@ -131,17 +143,8 @@ pub fn faults(image: &LinearImage, analysis: &Analysis) -> Vec<String> {
         count[1] += usize::from(kind == PixelKind::Matte);
         count[2] += usize::from(analysis.masks.clipped(pixel));
         if label == UNASSIGNED {
-            let (body, surface) = (intrinsic.body[pixel], intrinsic.surface[pixel]);
-            let whole = |band: usize| {
-                let input = image.pixels[pixel][band];
-                // Ambient light is subtracted and added again, which rounds.
-                let rounding = 1e-5 * input.max(1.0);
-                let more = body[band] + surface[band] - input;
-                // A clipped band that was restored has more light than the file keeps.
-                let is_whole = more.abs() <= rounding || (more > 0.0 && analysis.masks.clipped(pixel));
-                is_whole && body[band] <= input + rounding
-            };
-            expect((0..3).all(whole), "an unassigned pixel lost some of its color");
+            let is_whole = is_whole(intrinsic, pixel, image.pixels[pixel], analysis.masks.clipped(pixel));
+            expect(is_whole, "an unassigned pixel lost some of its color");
             expect(intrinsic.noise[pixel] == 0.0, "an unassigned pixel is noisy");
         }
     }

@@ -95,7 +95,7 @@ impl Hues {
     /// The hue at a pixel of the picture, a unit vector; none where the color tells no hue.
     pub fn at(&self, pixel: usize) -> Option<[f32; 3]> {
         let hue = *self.of.as_slice().get(self.roi.index(pixel)?)?;
-        (hue != [0.0; 3]).then_some(hue)
+        hue.iter().any(|band| *band != 0.0).then_some(hue)
     }
 }
 

@@ -150,7 +150,7 @@ fn split_unexplained<R: Recorder>(
         trace_writer.repairs_began();
         let found = repair::LocalAmounts { map, weights: &weights, amounts: &amounts };
         fills = repair::fills(original, input, unexplained, &found, |tried, blob| {
-            trace_writer.repair(tried, blob)
+            trace_writer.repair(tried, blob);
         });
         amounts = repair::faded(input, unexplained, map, &fills, amounts);
     }
