@@ -2,6 +2,7 @@
 
 mod container;
 
+use super::choice::is_matte;
 use crate::intrinsic::{Intrinsic, PixelKind};
 use crate::photo::{AlphaKind, Layout, Photo, Samples, nearest_code};
 use rayon::prelude::*;
@@ -58,7 +59,9 @@ pub fn write_matte(
         MatteError::Encode { path, reason } => MatteError::Encode { path: folder.join(path), reason },
         other => other,
     })?;
-    let path = folder.join(format!("matte.{extension}"));
+    let name = format!("matte.{extension}");
+    debug_assert!(is_matte(&name), "the files of a result have {name} among them");
+    let path = folder.join(name);
     std::fs::write(&path, bytes).map_err(|cause| MatteError::Write { path: path.clone(), cause })?;
     Ok(path)
 }

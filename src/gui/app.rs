@@ -153,13 +153,8 @@ impl App {
         let palette = ThemeColors::of(theme);
         let (mut commands, mut actions) = (Vec::new(), Vec::new());
         let mut cx = PanelContext {
-            state: self.application.state(),
-            palette: &palette,
             gpu: self.gpu.as_ref(),
-            is_export: false,
-            commands: &mut commands,
-            actions: &mut actions,
-            hovers: false,
+            ..PanelContext::new(self.application.state(), &palette, &mut commands, &mut actions)
         };
         if !draw_frame(&mut cx, |cx| self.content.show(ui, cx)) {
             // Dialogs and help may be what failed. The panels catch their own panics.
@@ -436,15 +431,7 @@ mod tests {
     fn a_panic_in_a_frame_becomes_a_notice_and_keeps_the_commands_before() {
         let (state, palette) = (State::default(), ThemeColors::of(Theme::Dark));
         let (mut commands, mut actions) = (Vec::new(), Vec::new());
-        let mut cx = PanelContext {
-            state: &state,
-            palette: &palette,
-            gpu: None,
-            is_export: false,
-            commands: &mut commands,
-            actions: &mut actions,
-            hovers: false,
-        };
+        let mut cx = PanelContext::new(&state, &palette, &mut commands, &mut actions);
         assert!(draw_frame(&mut cx, |cx| cx.send(ViewCommand::ForgetRecent)));
         let is_drawn = draw_frame(&mut cx, |cx| {
             cx.send(ViewCommand::Theme(Theme::Light));

@@ -23,7 +23,17 @@ pub struct PanelContext<'a> {
     pub hovers: bool,
 }
 
-impl PanelContext<'_> {
+impl<'a> PanelContext<'a> {
+    /// The context of a frame of the window, without a graphics device, that sends to `commands` and `actions`.
+    pub fn new(
+        state: &'a State,
+        palette: &'a ThemeColors,
+        commands: &'a mut Vec<Command>,
+        actions: &'a mut Vec<Action>,
+    ) -> Self {
+        Self { state, palette, gpu: None, is_export: false, commands, actions, hovers: false }
+    }
+
     /// Sends a command, which is applied after the frame.
     pub fn send(&mut self, command: impl Into<Command>) {
         self.commands.push(command.into());

@@ -68,13 +68,9 @@ fn draw(view_export: &ViewExport, state: &State, cube: CubePanel, gpu: &RenderSt
             offscreen_context.picture(|ui| {
                 let (mut ignored, mut ignored_actions) = (Vec::new(), Vec::new());
                 let mut cx = PanelContext {
-                    state,
-                    palette: &palette,
                     gpu: Some(&gpu),
                     is_export: true,
-                    commands: &mut ignored,
-                    actions: &mut ignored_actions,
-                    hovers: false,
+                    ..PanelContext::new(state, &palette, &mut ignored, &mut ignored_actions)
                 };
                 let frame = egui::Frame::new().fill(palette.background);
                 egui::CentralPanel::default()

@@ -87,7 +87,7 @@ impl Images {
             pixels: input.pixels,
             masks: input.masks,
             labels,
-            clip_thresholds: origin.map(|band| (input.used.clip_threshold - band) as f32),
+            clip_thresholds: input.clip_thresholds(origin),
             sigma: input.sigma() as f32,
         };
         let restored: Vec<Vec<RestoredPixel>> = plans

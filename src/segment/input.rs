@@ -143,6 +143,11 @@ impl<'a> AnalysisInput<'a> {
         (self.stop)()
     }
 
+    /// Value from which on each band is clipped, counts above the ambient light `origin`.
+    pub fn clip_thresholds(&self, origin: &[f64; 3]) -> [f32; 3] {
+        origin.map(|band| (self.used.clip_threshold - band) as f32)
+    }
+
     /// Standard deviation of a band's noise, counts: half of σ0.
     pub fn sigma(&self) -> f64 {
         self.used.camera_noise / 2.0

@@ -22,15 +22,7 @@ pub fn shown_rows(state: &State) -> (Vec<Action>, Vec<String>) {
     let (mut commands, mut actions, mut dock) = (Vec::new(), Vec::new(), Dock::default());
     let mut unnamed = Vec::new();
     let mut output = ctx.run_ui(egui::RawInput::default(), |ui| {
-        let mut cx = PanelContext {
-            state,
-            palette: &palette,
-            gpu: None,
-            is_export: false,
-            commands: &mut commands,
-            actions: &mut actions,
-            hovers: false,
-        };
+        let mut cx = PanelContext::new(state, &palette, &mut commands, &mut actions);
         file(ui, &mut cx);
         recent(ui, &mut cx);
         samples(ui, &mut cx);

@@ -8,7 +8,7 @@
 //! which the working picture was filled, which a clipped pixel takes.
 
 use super::chromaticity::changed;
-use super::hue_restoration::{by_hue, clip_thresholds, only_clipped_band};
+use super::hue_restoration::{by_hue, only_clipped_band};
 use super::lamps::Lamp;
 use super::linear_weights::linear_weights;
 use super::repair::CONFIDENCE;
@@ -49,7 +49,7 @@ pub fn split_locally_at_full_resolution(
         images.kinds.as_mut_slice().par_chunks_mut(width.max(1)),
         confidence.as_mut_slice().par_chunks_mut(width.max(1)),
     );
-    let thresholds = clip_thresholds(&detail.input, &working.origin);
+    let thresholds = detail.input.clip_thresholds(&working.origin);
     let by_working_picture = ByWorkingPicture { working, local, thresholds };
     rows.into_par_iter().enumerate().for_each(|(y, (body, surface, kinds, confidence))| {
         if detail.input.stopped() {

@@ -54,7 +54,7 @@ impl HueRestored {
         let is_known = light.interval_deg.is_none_or(|interval_deg| interval_deg <= MOST_INTERVAL_DEG);
         let is_wanted = is_known && input.refine.hue_restoration && input.refine.local_split;
         let lamps = lamps.filter(|_| is_wanted)?;
-        let mut bands = restored_bands(input, &clip_thresholds(input, origin), lamps);
+        let mut bands = restored_bands(input, &input.clip_thresholds(origin), lamps);
         if bands.is_empty() {
             return None;
         }
@@ -97,11 +97,6 @@ impl Hues {
         let hue = *self.of.as_slice().get(self.roi.index(pixel)?)?;
         hue.iter().any(|band| *band != 0.0).then_some(hue)
     }
-}
-
-/// Value from which on each band is clipped, counts above the ambient light `origin`.
-pub fn clip_thresholds(input: &AnalysisInput, origin: &[f64; 3]) -> [f32; 3] {
-    origin.map(|band| (input.used.clip_threshold - band) as f32)
 }
 
 fn restored_bands(input: &AnalysisInput, thresholds: &[f32; 3], lamps: &Lamps) -> Vec<RestoredBand> {

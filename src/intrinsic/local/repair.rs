@@ -77,13 +77,19 @@ pub fn fills(
         if input.stopped() {
             break;
         }
-        let around = Around::of(whole, &mut around_whole, |pixel| found.is_highlight(pixel));
-        let tried_whole = found.tried(original, whole, &around);
+        let mut tried_whole = None;
         for &first in whole {
             let Some(blob) = blobs.component_at(first, clipped) else { continue };
             let around = Around::of(blob, &mut surroundings, |pixel| found.is_highlight(pixel));
             let own = found.tried(input, blob, &around);
-            let tried = if own.verdict == RepairVerdict::Filled { own } else { tried_whole };
+            let tried = if own.verdict == RepairVerdict::Filled || blob.len() == whole.len() {
+                own
+            } else {
+                *tried_whole.get_or_insert_with(|| {
+                    let around = Around::of(whole, &mut around_whole, |pixel| found.is_highlight(pixel));
+                    found.tried(original, whole, &around)
+                })
+            };
             record(tried, blob);
             if tried.verdict == RepairVerdict::Filled {
                 fills.push(Fill { blob: blob.to_vec(), rings: around.rings });

@@ -172,13 +172,15 @@ fn a_wipe_begins_with_two_layers_and_a_drawn_profile_is_raised() {
 #[test]
 fn the_result_shown_and_the_copied_command_line_are_named() {
     let mut window = tiny_window();
+    apply(&mut window, Edit::Select(Some(region(1))));
+    let whose_history = "The history is that of the newest result, which the key A shows again.";
     apply(&mut window, ViewCommand::Pin(true));
-    assert!(!says(&window, "A: the pinned result"));
+    assert!(!says(&window, "A: the pinned result") && !says(&window, whose_history));
     assert!(!says(&window, "Parameters (B, newest)"));
     apply(&mut window, ViewCommand::ShowPinned(true));
     assert!(says(&window, "A: the pinned result"));
     assert!(says(&window, "Parameters (B, newest)") && says(&window, "Regions (A, pinned)"), "the tabs");
-    assert!(says(&window, "The history is that of the newest result") || !says(&window, "History of"));
+    assert!(says(&window, whose_history), "instead of the history of the region");
     choose(&mut window, "Analyze", "Copy as command line");
     window.run_steps(3);
     assert!(says(&window, "the command line is in the clipboard"));
