@@ -25,7 +25,7 @@ pub use detail::Detail;
 pub use full_resolution::split_photograph;
 pub use reason::Reason;
 pub use region_plan::{FittedPlace, RegionPlans};
-pub use split::{WorkingSplit, split};
+pub use split::{JudgedPlans, WorkingSplit, judged_plans, split};
 
 use crate::raster::{Raster, RegionId};
 pub use crate::segment::RegionVerdict;

@@ -8,14 +8,14 @@ use super::explained_mask::explained_mask;
 use super::far_colors::remove_far_colors;
 use super::finish::Finish;
 use super::images::Images;
-use super::local::{HueRestored, Lamps, LocalInput, LocalSplit, Regions, split_locally};
+use super::local::{HueRestored, Lamps, LocalInput, LocalSplit, Observations, Regions, split_locally};
 use super::plane_evidence::reject_regions_without_evidence;
 use super::region::RegionReports;
 use super::region_plan::{FittedPlace, RegionPlan, RegionPlans};
 use crate::color::Line;
 use crate::raster::{Mask, Raster, RegionId};
 use crate::segment::{AnalysisInput, Branches, FinalRegions, Members, PlanarHypothesis, members, neighbors};
-use crate::trace::{Ambient, BranchesSought, Pass, PassBegan, Recorder};
+use crate::trace::{Ambient, BordersLimited, BranchesSought, Pass, PassBegan, Recorder};
 use rayon::prelude::*;
 use std::sync::Arc;
 
@@ -28,10 +28,25 @@ pub struct WorkingSplit {
 }
 
 impl WorkingSplit {
-    /// How the regions that are `kept`, by [`RegionId::index`], are split. `place`: where the picture that was split lies in the photograph.
-    pub fn region_plans(&self, kept: &[bool], place: FittedPlace) -> RegionPlans {
-        let plans = self.found.plans.iter().zip(kept).filter(|(_, is_kept)| **is_kept);
-        RegionPlans::new(plans.map(|(plan, _)| plan.clone()), place)
+    /// How each region is split.
+    pub fn judged_plans(self) -> JudgedPlans {
+        JudgedPlans(self.found.plans)
+    }
+}
+
+/// How each region is split, by [`RegionId::index`], after all tests of the regions.
+pub struct JudgedPlans(Vec<RegionPlan>);
+
+impl JudgedPlans {
+    /// Of each region, whether the model fits the region and separates body and surface reflection.
+    pub fn separated(&self) -> Vec<bool> {
+        self.0.iter().map(|plan| plan.model_fits() && plan.transform().is_some()).collect()
+    }
+
+    /// The plans of the regions that are `kept`, by [`RegionId::index`]. `place`: where the picture that was split lies in the photograph.
+    pub fn kept(self, kept: &[bool], place: FittedPlace) -> RegionPlans {
+        let plans = self.0.into_iter().zip(kept).filter(|(_, is_kept)| **is_kept);
+        RegionPlans::new(plans.map(|(plan, _)| plan), place)
     }
 }
 
@@ -60,22 +75,44 @@ pub fn split<R: Recorder>(input: &AnalysisInput, regions: &FinalRegions, recorde
         recorder.record(PassBegan { pass: Pass::Ambient });
         recorder.record(ambient);
     }
-    let (mut intrinsic, found) = match ambient.subtracted {
-        None => split_from(&[0.0; 3], input, regions, &members, recorder),
-        Some(counts) => {
-            let pixels = without_light(input.pixels, &counts);
-            let from_light = |hypothesis: &PlanarHypothesis| hypothesis.from_origin(&counts.into());
-            let shifted = FinalRegions {
-                labels: regions.labels.clone(),
-                hypotheses: regions.hypotheses.iter().map(from_light).collect(),
-                light: regions.light,
-                second_lamp_mask: regions.second_lamp_mask.clone(),
-            };
-            split_from(&counts, &input.with_pixels(&pixels), &shifted, &members, recorder)
-        }
-    };
+    let (mut intrinsic, found) = from_ambient(&ambient, input, regions, |origin, input, regions| {
+        split_from(origin, input, regions, &members, recorder)
+    });
     add_ambient(&mut intrinsic, ambient);
     WorkingSplit { intrinsic: Arc::new(intrinsic), found }
+}
+
+/// How [`split`] splits the regions, without the images and the local split, which take most of the time.
+pub fn judged_plans(input: &AnalysisInput, regions: &FinalRegions) -> JudgedPlans {
+    let members = members(regions);
+    let ambient = ambient(input, regions, &members);
+    from_ambient(&ambient, input, regions, |origin, input, regions| {
+        let lamps = Lamps::new(&regions.light, regions.second_lamp_mask.as_ref());
+        let matte = matte_lines(regions);
+        let local_regions = Regions { labels: &regions.labels, members: &members, matte: &matte };
+        let plans = plans(input, regions, &members);
+        JudgedPlans(split_by_planes(origin, input, plans, &local_regions, lamps.as_ref()).plans)
+    })
+}
+
+/// What `work` makes of the picture and the regions when their colors are measured from the ambient light that is to be subtracted, its first
+/// argument, counts.
+fn from_ambient<T>(
+    ambient: &Ambient,
+    input: &AnalysisInput,
+    regions: &FinalRegions,
+    work: impl FnOnce(&[f64; 3], &AnalysisInput, &FinalRegions) -> T,
+) -> T {
+    let Some(counts) = ambient.subtracted else { return work(&[0.0; 3], input, regions) };
+    let pixels = without_light(input.pixels, &counts);
+    let from_light = |hypothesis: &PlanarHypothesis| hypothesis.from_origin(&counts.into());
+    let shifted = FinalRegions {
+        labels: regions.labels.clone(),
+        hypotheses: regions.hypotheses.iter().map(from_light).collect(),
+        light: regions.light,
+        second_lamp_mask: regions.second_lamp_mask.clone(),
+    };
+    work(&counts, &input.with_pixels(&pixels), &shifted)
 }
 
 /// The colors without the ambient light `counts`.
@@ -107,7 +144,11 @@ fn split_from<R: Recorder>(
     members: &Members,
     recorder: &mut R,
 ) -> (Intrinsic, Found) {
-    let plans = plans(input, regions, members);
+    let lamps = Lamps::new(&regions.light, regions.second_lamp_mask.as_ref());
+    let matte = matte_lines(regions);
+    let local_regions = Regions { labels: &regions.labels, members, matte: &matte };
+    let SplitByPlanes { plans, mut images, mut limited, observations } =
+        split_by_planes(origin, input, plans(input, regions, members), &local_regions, lamps.as_ref());
     let mut found = Found {
         origin: *origin,
         sigma: input.sigma(),
@@ -116,19 +157,9 @@ fn split_from<R: Recorder>(
         local: None,
         touching: Vec::new(),
     };
-    let mut images = Images::split_undistorted(input, &regions.labels, &found.plans);
     if input.stopped() {
         return (images.unfinished(), found);
     }
-    images.restore(origin, input, &regions.labels, &found.plans, members);
-    let mut limited = limit_surface_at_borders(input, &regions.labels, &found.plans, &mut images);
-    reject_regions_with_new_edges(input, &regions.labels, members, &images, &mut found.plans);
-    let matte: Vec<Line> = found.plans.iter().map(|plan| plan.hypothesis.matte).collect();
-    let local_regions = Regions { labels: &regions.labels, members, matte: &matte };
-    let lamps = Lamps::new(&regions.light, regions.second_lamp_mask.as_ref());
-    let hue_restored = HueRestored::new(input, origin, &regions.light, lamps.as_ref());
-    let observations =
-        reject_regions_without_evidence(input, lamps.as_ref(), &local_regions, &images, &mut found.plans);
     let plans = &found.plans;
     record_plans(origin, plans, recorder);
     if R::KEEPS && input.refine.border_mixtures {
@@ -140,6 +171,7 @@ fn split_from<R: Recorder>(
     found.explained_mask = explained_mask(input, regions, members, &model_fits, &images.kinds);
     remove_far_colors(input, &regions.labels, plans, &mut found.explained_mask);
     let explained_mask = &found.explained_mask;
+    let hue_restored = HueRestored::new(input, origin, &regions.light, lamps.as_ref());
     let local_input = LocalInput {
         input,
         restored: hue_restored.as_ref(),
@@ -167,6 +199,43 @@ fn split_from<R: Recorder>(
     };
     let local_confidence = found.local.as_ref().map(|local| &local.confidence);
     (finish.intrinsic(images, reports, local_confidence), found)
+}
+
+/// A picture that was split by the planes of its regions.
+struct SplitByPlanes<'a> {
+    /// How each region is split, by [`RegionId::index`], after all tests.
+    plans: Vec<RegionPlan>,
+    /// The images by these plans, those of the regions that the model does not fit among them.
+    images: Images,
+    /// The pixels at borders whose surface reflection was limited.
+    limited: BordersLimited,
+    /// What the tests observed around the lit pixels; none where no region was tested by it.
+    observations: Option<Observations<'a>>,
+}
+
+/// Splits a picture whose colors are measured from `origin`, the ambient light in counts, by the `plans` of its regions, and rejects the
+/// regions that the model does not fit. A run that was stopped restores and rejects nothing.
+fn split_by_planes<'a>(
+    origin: &[f64; 3],
+    input: &AnalysisInput,
+    mut plans: Vec<RegionPlan>,
+    regions: &Regions<'a>,
+    lamps: Option<&Lamps>,
+) -> SplitByPlanes<'a> {
+    let mut images = Images::split_undistorted(input, regions.labels, &plans);
+    if input.stopped() {
+        return SplitByPlanes { plans, images, limited: BordersLimited::default(), observations: None };
+    }
+    images.restore(origin, input, regions.labels, &plans, regions.members);
+    let limited = limit_surface_at_borders(input, regions.labels, &plans, &mut images);
+    reject_regions_with_new_edges(input, regions.labels, regions.members, &images, &mut plans);
+    let observations = reject_regions_without_evidence(input, lamps, regions, &images, &mut plans);
+    SplitByPlanes { plans, images, limited, observations }
+}
+
+/// The matte line of each region, by [`RegionId::index`], counts above the ambient light.
+fn matte_lines(regions: &FinalRegions) -> Vec<Line> {
+    regions.hypotheses.iter().map(|hypothesis| hypothesis.matte).collect()
 }
 
 /// How each region is split, by [`RegionId::index`].

@@ -5,7 +5,7 @@ use crate::analysis::photograph::Photograph;
 use crate::analysis::prepared::masks_made;
 use crate::analysis::slot::recorded;
 use crate::analysis::windows::{classify_windows, merged_areas};
-use crate::intrinsic::{FittedPlace, RegionPlans, RegionReflection, WorkingSplit, split};
+use crate::intrinsic::{FittedPlace, JudgedPlans, RegionPlans, judged_plans, split};
 use crate::params::{Refine, Stage};
 use crate::photo::{Masks, WorkingPicture};
 use crate::raster::{Blocks, LabelMap, Mask, RegionId, Roi, UNASSIGNED};
@@ -62,9 +62,8 @@ impl Tile {
             .stopped_by(input.stopping());
         let finer_input = prepared.with_errors(finer_input, finer.coding.as_ref(), finer.shot);
         let mut records = StageRecords::<R>::default();
-        let (regions, split) = regions_and_split(&finer_input, finer, &mut records);
-        let is_kept = |region: &RegionReflection| region.model_fits() && region.separable;
-        let kept: Vec<bool> = split.intrinsic.regions.iter().map(is_kept).collect();
+        let (regions, plans) = regions_and_plans(&finer_input, finer, &mut records)?;
+        let kept = plans.separated();
         if finer_input.stopped() || !(R::KEEPS || kept.contains(&true)) {
             return None;
         }
@@ -77,8 +76,7 @@ impl Tile {
         let photograph_input = input.with_picture(&cropped.pixels, &cropped_masks);
         Some(Self {
             labels: full_resolution_labels(&photograph_input, &regions, &blocks),
-            plans: split
-                .region_plans(&kept, FittedPlace { block_side: finer.side, corner: [roi.left, roi.top] }),
+            plans: plans.kept(&kept, FittedPlace { block_side: finer.side, corner: [roi.left, roi.top] }),
             hypotheses: regions.hypotheses,
             record,
             kept,
@@ -110,12 +108,13 @@ impl Tile {
     }
 }
 
-/// The regions of a finer picture under the light that was given, and the split of the picture.
-fn regions_and_split<R: Recorder>(
+/// The regions of a finer picture under the light that was given, and how each is split; none where no area is a matte line and no record is
+/// kept. The images of the split are made for the record alone.
+fn regions_and_plans<R: Recorder>(
     input: &AnalysisInput,
     finer: &FinerPixels,
     records: &mut StageRecords<R>,
-) -> (FinalRegions, WorkingSplit) {
+) -> Option<(FinalRegions, JudgedPlans)> {
     records.stage(Stage::Masks, |recorder| {
         if R::KEEPS {
             recorder.record(masks_made(input.masks, finer.limits, input.pixels.len(), finer.sigma));
@@ -125,6 +124,9 @@ fn regions_and_split<R: Recorder>(
     let merged = records.stage(Stage::Merge, |recorder| merged_areas(input, &windows, recorder));
     let areas = &merged.areas;
     let matte = records.stage(Stage::Linear, |recorder| matte_regions(input, &windows, areas, recorder));
+    if !R::KEEPS && !matte.hypotheses.iter().any(|hypothesis| hypothesis.alive) {
+        return None;
+    }
     let planar =
         records.stage(Stage::Planar, |recorder| planar_regions(input, &windows, areas, &matte, recorder));
     let mut regions = records.stage(Stage::Clipping, |recorder| {
@@ -132,8 +134,12 @@ fn regions_and_split<R: Recorder>(
         final_regions(input, labels, &planar, recorder)
     });
     regions.light = finer.light;
-    let split = records.stage(Stage::Split, |recorder| split(input, &regions, recorder));
-    (regions, split)
+    let plans = if R::KEEPS {
+        records.stage(Stage::Split, |recorder| split(input, &regions, recorder)).judged_plans()
+    } else {
+        judged_plans(input, &regions)
+    };
+    Some((regions, plans))
 }
 
 /// The records of the stages that have run.

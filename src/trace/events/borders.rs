@@ -4,7 +4,7 @@ use super::EventData;
 use crate::raster::PixelIndex;
 
 /// The surface reflection of pixels near other regions was limited (refinement `border_mixtures`).
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 #[non_exhaustive]
 pub struct BordersLimited {
     /// How far a border mixes the colors of both sides, pixels along each axis.
