@@ -4,8 +4,10 @@
 use super::grid::Raster;
 use rayon::prelude::*;
 
-/// Number of rows that one task smooths along the columns: fixed, so that sums do not depend on the number of threads.
+/// Least number of rows that one task smooths along the columns: fixed, so that sums do not depend on the number of threads.
 const BAND_ROWS: usize = 64;
+/// Number of rows that one task smooths at least, for each row of the radius: a task reads twice the radius in addition.
+const BAND_ROWS_PER_RADIUS: usize = 6;
 
 /// Smooths by a Gaussian with a standard deviation of `sigma_px`; at the border the mean is over the pixels inside.
 pub fn blur<const N: usize>(image: &Raster<[f32; N]>, sigma_px: f64) -> Raster<[f32; N]> {
@@ -71,8 +73,9 @@ fn mean_along_row<const N: usize>(from: &[[f32; N]], to: &mut [[f32; N]], radius
 /// Writes the running means along the columns with `2·radius_px + 1` values each; bands of rows in parallel.
 fn mean_along_columns<const N: usize>(from: &Raster<[f32; N]>, to: &mut Raster<[f32; N]>, radius_px: usize) {
     let (width, height) = (from.width(), from.height());
-    to.as_mut_slice().par_chunks_mut(width * BAND_ROWS).enumerate().for_each(|(band, to)| {
-        let top = band * BAND_ROWS;
+    let band_rows = BAND_ROWS.max(BAND_ROWS_PER_RADIUS * radius_px);
+    to.as_mut_slice().par_chunks_mut(width * band_rows).enumerate().for_each(|(band, to)| {
+        let top = band * band_rows;
         let first = top.saturating_sub(radius_px);
         let mut sums = vec![[0.0f32; N]; width];
         let mut count = 0.0f32;

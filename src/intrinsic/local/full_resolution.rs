@@ -8,6 +8,7 @@
 //! which the working picture was filled, which a clipped pixel takes.
 
 use super::chromaticity::changed;
+use super::guided::AmountLine;
 use super::hue_restoration::{by_hue, only_clipped_band};
 use super::lamps::Lamp;
 use super::linear_weights::linear_weights;
@@ -15,7 +16,7 @@ use super::repair::CONFIDENCE;
 use super::{LocalSplit, Moved, undo_unexplained};
 use crate::intrinsic::detail::Detail;
 use crate::intrinsic::images::Images;
-use crate::raster::{Blocks, Mask, Raster};
+use crate::raster::{Mask, Raster, dilate};
 use crate::trace::PixelKind;
 use rayon::prelude::*;
 
@@ -49,32 +50,37 @@ pub fn split_locally_at_full_resolution(
         images.kinds.as_mut_slice().par_chunks_mut(width.max(1)),
         confidence.as_mut_slice().par_chunks_mut(width.max(1)),
     );
-    let thresholds = detail.input.clip_thresholds(&working.origin);
-    let by_working_picture = ByWorkingPicture { working, local, thresholds };
+    let by_working_picture = ByWorkingPicture::new(detail, working, local);
+    let blocks = &detail.blocks;
+    let columns: Vec<_> = (0..width).map(|x| nearest_of(x, blocks.side(), blocks.columns())).collect();
     rows.into_par_iter().enumerate().for_each(|(y, (body, surface, kinds, confidence))| {
         if detail.input.stopped() {
             return;
         }
-        for x in 0..width {
-            let pixel = y * width + x;
-            if !unexplained[pixel] {
-                continue;
-            }
-            let nearest = Nearest::new(&detail.blocks, x, y);
-            let color = detail.input.pixels[pixel];
-            let is_clipped = detail.input.masks.clipped(pixel);
-            let working_pixel = detail.blocks.block_of(pixel);
-            let found = if is_clipped {
-                by_working_picture
-                    .restored(color, working_pixel, &nearest)
-                    .or_else(|| by_working_picture.filled(color, &nearest))
-            } else {
-                by_working_picture.split(color, color, working_pixel, &nearest)
-            };
-            let Some(found) = found else { continue };
-            (body[x], surface[x], confidence[x]) = (found.body, found.surface, found.confidence);
-            if kinds[x] != PixelKind::Unassigned && found.confidence > 0.0 {
-                kinds[x] = if is_clipped { PixelKind::Restored } else { PixelKind::Highlight };
+        let nearest_rows = nearest_of(y, blocks.side(), blocks.rows());
+        for column in 0..blocks.columns() {
+            let working_pixel = (y / blocks.side()) * blocks.columns() + column;
+            let is_near_amount = by_working_picture.near_amount[working_pixel];
+            for x in blocks.pixel_columns(column) {
+                let pixel = y * width + x;
+                let is_clipped = detail.input.masks.clipped(pixel);
+                if !unexplained[pixel] || !(is_near_amount || is_clipped) {
+                    continue;
+                }
+                let nearest = Nearest::new(columns[x], nearest_rows, blocks.columns());
+                let color = detail.input.pixels[pixel];
+                let found = if is_clipped {
+                    by_working_picture
+                        .restored(color, working_pixel, &nearest)
+                        .or_else(|| by_working_picture.filled(color, &nearest))
+                } else {
+                    by_working_picture.split(color, color, working_pixel, &nearest)
+                };
+                let Some(found) = found else { continue };
+                (body[x], surface[x], confidence[x]) = (found.body, found.surface, found.confidence);
+                if kinds[x] != PixelKind::Unassigned && found.confidence > 0.0 {
+                    kinds[x] = if is_clipped { PixelKind::Restored } else { PixelKind::Highlight };
+                }
             }
         }
     });
@@ -91,15 +97,50 @@ struct PixelSplit {
     confidence: f32,
 }
 
+/// What the local split found at a working pixel.
+#[derive(Clone, Copy, Default)]
+struct Cell {
+    /// The amount of surface reflection; none far from usable pixels.
+    line: Option<AmountLine>,
+    /// Confidence in the split, 0…1.
+    confidence: f32,
+    /// Change of body reflection as a share of its length; none where the chromaticity was not sought.
+    change: Option<[f32; 3]>,
+}
+
 /// What the working picture tells of the pixels of the photograph.
 struct ByWorkingPicture<'a> {
     working: &'a LocalWorkingSplit<'a>,
     local: &'a LocalSplit,
+    /// What was found at each working pixel.
+    cells: Raster<Cell>,
+    /// The working pixels that have surface reflection for some color, or are next to one: no pixel in the block of another has any.
+    near_amount: Mask,
     /// Value from which on each band is clipped, counts above the ambient light.
     thresholds: [f32; 3],
 }
 
-impl ByWorkingPicture<'_> {
+impl<'a> ByWorkingPicture<'a> {
+    fn new(detail: &Detail, working: &'a LocalWorkingSplit<'a>, local: &'a LocalSplit) -> Self {
+        let LocalSplit { lines, confidence, chromaticity, .. } = local;
+        let (width, height) = (working.body.width(), working.body.height());
+        let mut cells = Raster::filled(width, height, Cell::default());
+        cells.as_mut_slice().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
+            for (x, cell) in row.iter_mut().enumerate() {
+                let pixel = y * width + x;
+                *cell = Cell {
+                    line: lines.roi.index(pixel).and_then(|index| lines.line(index)),
+                    confidence: confidence[pixel],
+                    change: chromaticity.at(pixel),
+                };
+            }
+        });
+        let has_amount = cells.map(|cell| cell.line.is_some_and(|line| !line.is_none()));
+        let near_amount = dilate(&has_amount, 1);
+        let thresholds = detail.input.clip_thresholds(&working.origin);
+        Self { working, local, cells, near_amount, thresholds }
+    }
+
     /// The split of a pixel whose only clipped band is restored by the hue of the nearest working pixels; none where the band cannot be
     /// restored, or there is no surface reflection.
     fn restored(&self, color: [f32; 3], working_pixel: usize, nearest: &Nearest) -> Option<PixelSplit> {
@@ -120,17 +161,16 @@ impl ByWorkingPicture<'_> {
         working_pixel: usize,
         nearest: &Nearest,
     ) -> Option<PixelSplit> {
-        let LocalSplit { lines, lamps, confidence: of_working, chromaticity, .. } = self.local;
-        let Lamp { gain, per_amount } = lamps.of(working_pixel);
+        let Lamp { gain, per_amount } = self.local.lamps.of(working_pixel);
         let a = gain.mean(color);
-        let line = |pixel: usize| lines.line(lines.roi.index(pixel)?);
-        let [amount, confidence] = nearest.mean(|pixel| Some([line(pixel)?.amount(a), of_working[pixel]]))?;
+        let found = |cell: &Cell| Some([cell.line?.amount(a), cell.confidence]);
+        let [amount, confidence] = nearest.mean(|pixel| found(&self.cells[pixel]))?;
         if amount <= 0.0 {
             return None;
         }
         let moved = Moved::new(color, amount, per_amount);
         let mut body = moved.body_below(limit);
-        if let Some(change) = nearest.mean(|pixel| chromaticity.at(pixel)) {
+        if let Some(change) = nearest.mean(|pixel| self.cells[pixel].change) {
             body = changed(body, change, limit);
         }
         Some(PixelSplit { body, surface: moved.surface, confidence })
@@ -148,6 +188,11 @@ impl ByWorkingPicture<'_> {
     }
 }
 
+/// The two blocks of `side` pixels, of `count`, that are nearest to column or row `at` of the photograph, each with its weight.
+fn nearest_of(at: usize, side: usize, count: usize) -> [(usize, f32); 2] {
+    linear_weights((at as f32 + 0.5) / side as f32, count)
+}
+
 /// A working pixel, and its share in a bilinear interpolation.
 struct Share {
     working_pixel: usize,
@@ -161,12 +206,10 @@ struct Nearest {
 }
 
 impl Nearest {
-    fn new(blocks: &Blocks, x: usize, y: usize) -> Self {
-        let position = |at: usize| (at as f32 + 0.5) / blocks.side() as f32;
-        let [left, right] = linear_weights(position(x), blocks.columns());
-        let [top, bottom] = linear_weights(position(y), blocks.rows());
+    /// The working pixels in the two nearest columns and rows, each with its weight, of a working picture of `width` columns.
+    fn new([left, right]: [(usize, f32); 2], [top, bottom]: [(usize, f32); 2], width: usize) -> Self {
         let share = |column: (usize, f32), row: (usize, f32)| Share {
-            working_pixel: row.0 * blocks.columns() + column.0,
+            working_pixel: row.0 * width + column.0,
             weight: row.1 * column.1,
         };
         Self { shares: [share(left, top), share(right, top), share(left, bottom), share(right, bottom)] }
@@ -188,17 +231,22 @@ impl Nearest {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::Blocks;
 
     #[test]
     fn a_pixel_between_working_pixels_takes_from_both() {
         let blocks = Blocks::new(2, 8, 4);
         let value = |place: usize| Some([place as f32; 3]);
-        let mean = |x, y| Nearest::new(&blocks, x, y).mean(value).unwrap()[0];
+        let nearest = |x: usize, y: usize| {
+            let columns = nearest_of(x, blocks.side(), blocks.columns());
+            Nearest::new(columns, nearest_of(y, blocks.side(), blocks.rows()), blocks.columns())
+        };
+        let mean = |x, y| nearest(x, y).mean(value).unwrap()[0];
         assert!((mean(0, 0) - 0.0).abs() < 1e-6, "the picture's corner");
         assert!((mean(1, 0) - 0.25).abs() < 1e-6 && (mean(2, 0) - 0.75).abs() < 1e-6);
         assert!((mean(0, 2) - 3.0).abs() < 1e-6 && (mean(7, 3) - 7.0).abs() < 1e-6);
-        let only = Nearest::new(&blocks, 1, 0).mean(|place| (place == 1).then_some([9.0; 3]));
+        let only = nearest(1, 0).mean(|place| (place == 1).then_some([9.0; 3]));
         assert_eq!(only, Some([9.0; 3]), "working pixels without a value do not count");
-        assert_eq!(Nearest::new(&blocks, 1, 0).mean(|_| None::<[f32; 1]>), None);
+        assert_eq!(nearest(1, 0).mean(|_| None::<[f32; 1]>), None);
     }
 }

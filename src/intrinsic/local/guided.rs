@@ -13,6 +13,9 @@ use crate::raster::{Raster, Roi, blur};
 const GAUSSIAN_PX: f64 = 2.5;
 /// The ε of the guided filter, which is added to the variance of a; variances of the noise of a band.
 const REGULARIZATION: f32 = 4.0;
+/// Slope and offset (counts of J) below which an amount is none: less than a file of 16 bits can hold. Far from highlights running means
+/// leave such remains.
+const NEGLIGIBLE: AmountLine = AmountLine { slope: 1e-5, offset: 1e-3 };
 /// Share of usable pixels in the window below which there is no line.
 const LEAST_SHARE: f32 = 1e-4;
 
@@ -26,6 +29,17 @@ pub struct AmountLine {
 }
 
 impl AmountLine {
+    /// Whether the amount of every color is 0.
+    pub fn is_none(self) -> bool {
+        self.slope <= 0.0 && self.offset <= 0.0
+    }
+
+    /// This line, or the line without any amount where this one gives hardly any.
+    fn without_remains(self) -> Self {
+        let is_negligible = self.slope < NEGLIGIBLE.slope && self.offset.abs() < NEGLIGIBLE.offset;
+        if is_negligible { Self::default() } else { self }
+    }
+
     /// The amount of a color whose mean is `a`, counts of J.
     #[inline]
     pub fn amount(self, a: f32) -> f32 {
@@ -65,7 +79,8 @@ impl AmountLines {
         let smooth = blur(&fitted, GAUSSIAN_PX);
         let of = map.raster(|index| {
             let [weight, slope, offset] = smooth[index];
-            (weight > LEAST_SHARE).then(|| AmountLine { slope: slope / weight, offset: offset / weight })
+            let line = || AmountLine { slope: slope / weight, offset: offset / weight };
+            (weight > LEAST_SHARE).then(|| line().without_remains())
         });
         Self { roi: map.roi, of }
     }
@@ -92,5 +107,13 @@ mod tests {
         let is = |line: AmountLine, a: f32, amount: f32| (line.amount(a) - amount).abs() < 1e-6;
         assert!(is(line, 10.0, 0.0) && is(line, 40.0, 10.0) && is(line, -3.0, 0.0));
         assert!(is(AmountLine { slope: 1.0, offset: 5.0 }, 20.0, 20.0));
+    }
+
+    #[test]
+    fn the_remains_of_running_means_are_no_amount() {
+        let cleaned = |slope: f32, offset: f32| AmountLine { slope, offset }.without_remains();
+        assert!(cleaned(1e-7, -1e-6).is_none() && cleaned(0.0, 0.0).is_none());
+        assert_eq!(cleaned(0.5, -40.0), AmountLine { slope: 0.5, offset: -40.0 });
+        assert!(!cleaned(0.5, -40.0).is_none() && !cleaned(0.0, 0.01).is_none());
     }
 }

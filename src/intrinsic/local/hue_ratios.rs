@@ -12,6 +12,7 @@
 use super::lamps::Lamps;
 use super::linear_weights::linear_weights;
 use crate::photo::Masks;
+use crate::raster::Raster;
 use crate::reflection::WhitenedColor;
 use crate::segment::AnalysisInput;
 use crate::trace::{LocalLimits, LocalPoint};
@@ -157,7 +158,8 @@ impl Histogram {
         // A pixel counts in the two nearest cells of a row, and in the two nearest rows of cells, by its distance.
         let shares = |at: usize, count: usize| linear_weights((at as f32 + 0.5) / cell_px as f32, count);
         let row_count = height.div_ceil(cell_px);
-        let near_clipped = NearClipped { masks: input.masks, width, height };
+        let bins = counted_bins(input, limits, lamps);
+        let in_columns: Vec<[(usize, f32); 2]> = (0..width).map(|x| shares(x, columns)).collect();
         let counted = |row: usize| {
             let mut counts = HistogramRow::empty(columns);
             let first = (row * cell_px).saturating_sub(cell_px / 2 + 1);
@@ -170,25 +172,17 @@ impl Histogram {
                 if by_row <= 0.0 {
                     continue;
                 }
-                for (x, &color) in input.pixels.row(y).iter().enumerate() {
-                    let pixel = y * width + x;
-                    if input.masks.dark(pixel) || near_clipped.at(x, y) {
-                        continue;
-                    }
-                    let color = lamps.of(pixel).gain.whitened(color);
-                    if limits.has_hue(color) {
-                        let (hue, bin) = (hue_place(color.hue_turns) as usize, bin_place(color) as usize);
-                        for (cell, by_cell) in shares(x, columns) {
-                            if by_cell > 0.0 {
-                                counts.get_mut(cell, hue)[bin] += by_row * by_cell;
-                            }
-                        }
+                let of_row = bins.row(y).iter().zip(&in_columns).filter(|(bin, _)| **bin != NOT_COUNTED);
+                for (&bin, in_columns) in of_row {
+                    let (hue, bin) = (usize::from(bin) / BINS, usize::from(bin) % BINS);
+                    for &(cell, by_cell) in in_columns.iter().filter(|(_, by_cell)| *by_cell > 0.0) {
+                        counts.get_mut(cell, hue)[bin] += by_row * by_cell;
                     }
                 }
             }
             counts
         };
-        let rows = (0..height.div_ceil(cell_px)).into_par_iter().map(counted).collect();
+        let rows = (0..row_count).into_par_iter().map(counted).collect();
         Self { cell_px, columns, rows }
     }
 
@@ -259,6 +253,30 @@ impl Histogram {
         let of = self.rows.par_iter().flat_map_iter(of_row).collect();
         HueRatios { cell_px: self.cell_px as f32, columns: self.columns, rows: self.rows.len(), of }
     }
+}
+
+/// Of a pixel that is not counted.
+const NOT_COUNTED: u16 = u16::MAX;
+
+/// The hue and the bin of ln(a/c) in which each pixel is counted, hue by hue; [`NOT_COUNTED`] for other pixels.
+fn counted_bins(input: &AnalysisInput, limits: &LocalLimits, lamps: &Lamps) -> Raster<u16> {
+    let (width, height) = (input.pixels.width(), input.pixels.height());
+    let near_clipped = NearClipped { masks: input.masks, width, height };
+    let mut bins = Raster::filled(width, height, NOT_COUNTED);
+    bins.as_mut_slice().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
+        for (x, (counted, &color)) in row.iter_mut().zip(input.pixels.row(y)).enumerate() {
+            let pixel = y * width + x;
+            if input.masks.dark(pixel) || near_clipped.at(x, y) {
+                continue;
+            }
+            let color = lamps.of(pixel).gain.whitened(color);
+            if limits.has_hue(color) {
+                let (hue, bin) = (hue_place(color.hue_turns) as usize, bin_place(color) as usize);
+                *counted = (hue * BINS + bin) as u16;
+            }
+        }
+    });
+    bins
 }
 
 /// Which pixels are clipped, or next to a clipped pixel.
