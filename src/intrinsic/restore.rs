@@ -10,11 +10,13 @@
 //! does not clip itself and whose color fits the plane of its region is split like an undistorted pixel (`images`).
 
 use crate::photo::Masks;
-use crate::raster::{LabelMap, Raster};
+use crate::raster::{LabelMap, Mask, Raster, Roi, pull_push};
 use crate::reflection::{Components, HighlightTest, ReflectionTransform};
 
 /// Relative standard deviation of the prior for body reflection.
 const PRIOR_SD: f32 = 0.1;
+/// Largest number of updates of all values of a blob by which the interpolation is made harmonic.
+const MOST_UPDATES: usize = 10_000_000;
 
 /// The picture whose distorted pixels are restored.
 pub struct Distorted<'a> {
@@ -112,61 +114,103 @@ impl Distorted<'_> {
         good
     }
 
-    /// The amount of body reflection around each distorted pixel of a region, counts: the mean of the neighbors in the region,
-    /// propagated inward ring by ring. `body` computes the amount of an undistorted color. NaN where no undistorted pixel of the
-    /// region is connected. `distorted`: the distorted pixels of the region, ascending.
+    /// The amount of body reflection around each distorted pixel of a region, counts: interpolated into each blob of distorted pixels from
+    /// the undistorted pixels of the region beside the blob. `body` computes the amount of an undistorted color. NaN where no
+    /// undistorted pixel of the region is beside the blob. `distorted`: the distorted pixels of the region, ascending.
     pub fn priors(&self, distorted: &[u32], body: impl Fn([f32; 3]) -> f32) -> Vec<f32> {
         let mut priors = vec![f32::NAN; distorted.len()];
         let (Some(&first), Some(&last)) = (distorted.first(), distorted.last()) else { return priors };
         let width = self.pixels.width();
-        // Index in `distorted`, plus 1, of each pixel from the first row of these on; 0 for other pixels.
+        // Index in `distorted`, plus 1, of each pixel from the first row of these on; 0 for other pixels and for those whose blob was found.
         let top = first as usize / width * width;
-        let mut place = vec![0u32; last as usize + 1 - top];
+        let mut waiting = vec![0u32; last as usize + 1 - top];
         for (index, &pixel) in distorted.iter().enumerate() {
-            place[pixel as usize - top] = index as u32 + 1;
+            waiting[pixel as usize - top] = index as u32 + 1;
         }
-        let mut waiting: Vec<u32> = (0..distorted.len() as u32).collect();
-        let mut queued = vec![true; distorted.len()];
-        while !waiting.is_empty() {
-            let known = |pixel: usize| {
-                if self.masks.distorted(pixel) {
-                    let place = pixel.checked_sub(top).and_then(|i| place.get(i)).copied().unwrap_or(0);
-                    return if place == 0 { f32::NAN } else { priors[place as usize - 1] };
+        let mut blob: Vec<u32> = Vec::new();
+        for start in 0..distorted.len() as u32 {
+            blob.clear();
+            let mut take = |pixel: usize, blob: &mut Vec<u32>| {
+                let place = pixel.checked_sub(top).and_then(|place| waiting.get_mut(place));
+                if let Some(index) = place.map(std::mem::take).and_then(|index| index.checked_sub(1)) {
+                    blob.push(index);
                 }
-                body(self.pixels[pixel])
             };
-            let ring: Vec<(u32, f32)> = waiting
-                .iter()
-                .map(|&index| (index, self.mean_around(distorted[index as usize] as usize, known)))
-                .collect();
-            for &(index, mean) in &ring {
-                queued[index as usize] = false;
-                priors[index as usize] = mean;
+            take(distorted[start as usize] as usize, &mut blob);
+            let mut next = 0;
+            while let Some(&index) = blob.get(next) {
+                self.pixels.around(distorted[index as usize] as usize).for_each(|near| take(near, &mut blob));
+                next += 1;
             }
-            waiting.clear();
-            for &(index, _) in ring.iter().filter(|(_, mean)| !mean.is_nan()) {
-                for near in self.pixels.around(distorted[index as usize] as usize) {
-                    let place = near.checked_sub(top).and_then(|i| place.get(i)).copied().unwrap_or(0);
-                    if place > 0 && priors[place as usize - 1].is_nan() && !queued[place as usize - 1] {
-                        queued[place as usize - 1] = true;
-                        waiting.push(place - 1);
-                    }
-                }
-            }
+            self.interpolate(distorted, &blob, &body, &mut priors);
         }
         priors
     }
 
-    /// Mean of the values that are `known` among the 8 neighbors of a pixel in its region; NaN where none is.
-    fn mean_around(&self, pixel: usize, known: impl Fn(usize) -> f32) -> f32 {
-        let region = self.labels[pixel];
-        let inside = self.pixels.around(pixel).filter(|&near| near != pixel && self.labels[near] == region);
-        let (sum, count) = inside
-            .map(known)
-            .filter(|value| !value.is_nan())
-            .fold((0.0, 0.0), |(sum, count), value| (sum + value, count + 1.0));
-        // 0 / 0 is NaN: no neighbor is known.
-        sum / count
+    /// Interpolates the amount of body reflection into one `blob`, indices in `distorted`, from the undistorted pixels of its region beside it.
+    fn interpolate(
+        &self,
+        distorted: &[u32],
+        blob: &[u32],
+        body: impl Fn([f32; 3]) -> f32,
+        priors: &mut [f32],
+    ) {
+        let size = (self.pixels.width(), self.pixels.height());
+        let pixel_of = |index: u32| distorted[index as usize] as usize;
+        let boxes = blob.iter().map(|&index| {
+            let pixel = pixel_of(index);
+            Roi::around_pixel(size, 1, [pixel % size.0, pixel / size.0])
+        });
+        let Some(roi) = boxes.reduce(|all, one| all.joined(&one)) else { return };
+        let mut known = Raster::filled(roi.width, roi.height, [0.0f32; 2]);
+        let mut is_known = false;
+        for &index in blob {
+            let region = self.labels[pixel_of(index)];
+            for near in self.pixels.around(pixel_of(index)) {
+                let is_beside = self.labels[near] == region && !self.masks.distorted(near);
+                if let Some(place) = roi.index(near).filter(|_| is_beside) {
+                    known[place] = [body(self.pixels[near]), 1.0];
+                    is_known = true;
+                }
+            }
+        }
+        if !is_known {
+            return;
+        }
+        let is_border = known.map(|[_, weight]| *weight > 0.0);
+        let mut filled = pull_push(known);
+        let mut places: Vec<usize> = blob.iter().filter_map(|&index| roi.index(pixel_of(index))).collect();
+        relax(&mut filled, &is_border, &mut places);
+        for &index in blob {
+            if let Some(place) = roi.index(pixel_of(index)) {
+                priors[index as usize] = filled[place];
+            }
+        }
+    }
+}
+
+/// Brings the `values` at `places` nearer to the harmonic interpolation between the values of `is_border`, each the mean of its neighbors, by
+/// successive over-relaxation; large blobs by fewer sweeps.
+fn relax(values: &mut Raster<f32>, is_border: &Mask, places: &mut [usize]) {
+    places.sort_unstable();
+    let mut is_inside = is_border.map(|_| false);
+    places.iter().for_each(|&place| is_inside[place] = true);
+    let across = (places.len() as f32).sqrt() + 2.0;
+    let relaxation = 2.0 / (1.0 + std::f32::consts::PI / across);
+    let sweeps = (3.0 * across) as usize + 20;
+    for _ in 0..sweeps.min(MOST_UPDATES / places.len().max(1)) {
+        for &place in places.iter() {
+            let (mut sum, mut count) = (0.0, 0.0f32);
+            is_inside.for_each_neighbor(place, |near| {
+                if is_inside[near] || is_border[near] {
+                    sum += values[near];
+                    count += 1.0;
+                }
+            });
+            if count > 0.0 {
+                values[place] += relaxation * (sum / count - values[place]);
+            }
+        }
     }
 }
 
@@ -255,8 +299,8 @@ mod tests {
     }
 
     #[test]
-    fn priors_go_inward_ring_by_ring_and_stop_at_other_regions() {
-        let row: Vec<[f32; 3]> = [50.0, 255.0, 255.0, 255.0, 90.0].map(|v: f32| [v, 30.0, 30.0]).to_vec();
+    fn priors_go_inward_and_stop_at_other_regions() {
+        let row: Vec<[f32; 3]> = [50.0, 255.0, 255.0, 255.0, 255.0].map(|v: f32| [v, 30.0, 30.0]).to_vec();
         let image = LinearImage::new(Raster::from_vec(5, 1, row).unwrap(), Some(255.0));
         let limits = MaskLimits { min_intensity: 23.0, clip_threshold: 240.0, bloom_density: 9 };
         let masks = Masks::new(&image, &limits);

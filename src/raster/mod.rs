@@ -9,6 +9,7 @@ mod covering;
 mod grid;
 mod ids;
 mod morphology;
+mod pull_push;
 mod roi;
 
 pub use blocks::Blocks;
@@ -18,4 +19,5 @@ pub(crate) use covering::disjoint_rectangles;
 pub use grid::{LabelMap, Mask, Raster, UNASSIGNED};
 pub use ids::{HypothesisId, PixelIndex, RegionId};
 pub(crate) use morphology::{dilate, erode};
+pub(crate) use pull_push::pull_push;
 pub(crate) use roi::Roi;
