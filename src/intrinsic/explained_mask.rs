@@ -6,7 +6,7 @@
 //! region, but no object consists of highlight alone); and a clipped blob that is mostly surrounded by other regions, which the
 //! region reached over a bridge of bright pixels.
 
-use crate::raster::{Border, ComponentSearch, Connectivity, Mask, Raster, RegionId};
+use crate::raster::{Border, ComponentSearch, Connectivity, LabelMap, Mask, Raster, RegionId};
 use crate::segment::{AnalysisInput, FinalRegions, Members, parts};
 use crate::trace::PixelKind;
 
@@ -14,6 +14,10 @@ use crate::trace::PixelKind;
 const LEAST_MATTE: f64 = 0.1;
 /// Least share of a clipped blob's own region in the assigned pixels around the blob.
 const LEAST_OWN: f64 = 0.5;
+/// Least share of clipped and bloomed pixels in a highlight that is tested for matte pixels around.
+const LEAST_DISTORTED: f64 = 0.2;
+/// Least share of matte pixels of its own region in the lit pixels around a highlight.
+const LEAST_OWN_MATTE: f64 = 0.4;
 
 /// The pixels that the skewed T of their region explains. `model_fits`: whether the skewed T
 /// fits each region, by [`RegionId::index`]. Parts and blobs are not looked at where a person marked the area: a person has said that
@@ -42,6 +46,7 @@ pub fn explained_mask(
         }
     }
     remove_blobs_of_other_objects(input, regions, &mut mask);
+    remove_highlights_without_body(input, &regions.labels, kinds, &mut mask);
     mask
 }
 
@@ -59,5 +64,94 @@ fn remove_blobs_of_other_objects(input: &AnalysisInput, regions: &FinalRegions, 
                 mask[pixel] = false;
             }
         }
+    }
+}
+
+/// Removes the clipped highlights that mostly border on other things than matte pixels of their own region: a white sky, whose color is
+/// that of the light, is no highlight of the red mast in front of it.
+fn remove_highlights_without_body(
+    input: &AnalysisInput,
+    labels: &LabelMap,
+    kinds: &Raster<PixelKind>,
+    mask: &mut Mask,
+) {
+    let is_bright = |pixel: usize| input.masks.distorted(pixel) || kinds[pixel] == PixelKind::Highlight;
+    let mut search = ComponentSearch::new(labels.width(), labels.height(), Connectivity::Four);
+    for start in 0..labels.len() {
+        let label = labels[start];
+        let member = |pixel: usize| mask[pixel] && labels[pixel] == label && is_bright(pixel);
+        let Some(highlight) = search.component_at(start, member) else { continue };
+        let distorted = highlight.iter().filter(|&&pixel| input.masks.distorted(pixel)).count();
+        if (distorted as f64) < LEAST_DISTORTED * highlight.len() as f64 {
+            continue;
+        }
+        let (mut own, mut others) = (0usize, 0usize);
+        for &pixel in highlight {
+            labels.for_each_neighbor(pixel, |near| {
+                if !member(near) && !input.masks.dark(near) {
+                    let is_matte = mask[near] && labels[near] == label;
+                    own += usize::from(is_matte);
+                    others += usize::from(!is_matte);
+                }
+            });
+        }
+        if (own as f64) < LEAST_OWN_MATTE * (own + others) as f64 {
+            for &pixel in highlight {
+                mask[pixel] = false;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::color::Vec3;
+    use crate::segment::testing::Drawing;
+
+    /// The explained pixels of a region of matte pixels (m), highlights (h) and clipped pixels (w) in front of something else (o) and of the
+    /// dark (.); a point is a pixel that is not explained.
+    fn explained(rows: &[&str]) -> Vec<String> {
+        let body = Vec3::new(0.9, 0.3, 0.2).normalize();
+        let drawing = Drawing::new(rows, |c| match c {
+            'm' => body * 120.0,
+            'h' => body * 120.0 + Vec3::repeat(60.0),
+            'w' => Vec3::repeat(255.0),
+            'o' => Vec3::new(40.0, 60.0, 150.0),
+            _ => Vec3::zeros(),
+        });
+        let letters: Vec<u8> = rows.concat().into_bytes();
+        let raster = |of: &dyn Fn(u8) -> bool| {
+            let values = letters.iter().map(|&letter| of(letter)).collect();
+            Mask::from_vec(rows[0].len(), rows.len(), values).unwrap()
+        };
+        let mut mask = raster(&|letter| b"mhw".contains(&letter));
+        let labels = mask.map(|&is_member| u16::from(is_member));
+        let is_highlight = raster(&|letter| letter == b'h');
+        let kinds = is_highlight.map(|&is| if is { PixelKind::Highlight } else { PixelKind::Matte });
+        remove_highlights_without_body(&drawing.input(), &labels, &kinds, &mut mask);
+        let letter = |&is_explained: &bool| if is_explained { 'x' } else { '.' };
+        mask.as_slice().chunks(rows[0].len()).map(|row| row.iter().map(letter).collect()).collect()
+    }
+
+    #[test]
+    fn a_white_sky_is_no_highlight_of_the_mast_in_front_of_it() {
+        let rows = ["wwwwwwwwwww", "wwwwwmwwwww", "hhhhhmhhhhh", "ooooomooooo", "ooooomooooo"];
+        let mast = ".....x.....";
+        assert_eq!(explained(&rows), ["...........", mast, mast, mast, mast]);
+    }
+
+    #[test]
+    fn a_highlight_stays_within_its_object_and_at_the_edge_of_its_object_before_the_dark() {
+        assert_eq!(explained(&["mmmmm", "mhwhm", "mmmmm"]), ["xxxxx", "xxxxx", "xxxxx"]);
+        assert_eq!(explained(&[".....", "mhwhm", "mmmmm"]), [".....", "xxxxx", "xxxxx"]);
+    }
+
+    #[test]
+    fn a_highlight_of_which_hardly_any_pixel_clips_is_left_to_the_other_tests() {
+        assert_eq!(
+            explained(&["hhhhhhh", "hhhwhhh", "hhhhhhh", "ooooooo"]).concat().matches('x').count(),
+            21
+        );
     }
 }
