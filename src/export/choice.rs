@@ -1,5 +1,6 @@
 //! Which files a result folder holds.
 
+use super::matte_format::MatteFormat;
 use super::pictures::{ARRAYS, PICTURES};
 use crate::describe;
 use std::collections::BTreeSet;
@@ -13,9 +14,6 @@ pub(super) const MATTE: &str = "matte";
 /// A choice among the files of a result.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct FileChoice(BTreeSet<&'static str>);
-
-/// Extensions that the photograph without highlights can have.
-const MATTE_EXTENSIONS: [&str; 3] = ["png", "jpg", "tif"];
 
 /// Error: no file of a result has this name.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -103,7 +101,9 @@ impl FileChoice {
     /// Whether all chosen files are in a folder.
     pub fn is_in(&self, folder: &Path) -> bool {
         self.iter().all(|name| match name {
-            MATTE => MATTE_EXTENSIONS.iter().any(|it| folder.join(MATTE).with_extension(it).is_file()),
+            MATTE => MatteFormat::ALL
+                .iter()
+                .any(|format| folder.join(MATTE).with_extension(format.extension()).is_file()),
             name => folder.join(name).is_file(),
         })
     }
@@ -133,7 +133,7 @@ pub(super) fn is_result_file(name: &str) -> bool {
 pub(super) fn is_matte(name: &str) -> bool {
     name.strip_prefix(MATTE)
         .and_then(|rest| rest.strip_prefix('.'))
-        .is_some_and(|extension| MATTE_EXTENSIONS.contains(&extension))
+        .is_some_and(|extension| MatteFormat::ALL.iter().any(|format| format.extension() == extension))
 }
 
 fn is_array(name: &str) -> bool {

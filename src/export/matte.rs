@@ -2,7 +2,7 @@
 
 mod container;
 
-use super::choice::is_matte;
+use super::choice::MATTE;
 use crate::intrinsic::{Intrinsic, PixelKind};
 use crate::photo::{AlphaKind, Layout, Photo, Samples, nearest_code};
 use rayon::prelude::*;
@@ -59,9 +59,7 @@ pub fn write_matte(
         MatteError::Encode { path, reason } => MatteError::Encode { path: folder.join(path), reason },
         other => other,
     })?;
-    let name = format!("matte.{extension}");
-    debug_assert!(is_matte(&name), "the files of a result have {name} among them");
-    let path = folder.join(name);
+    let path = folder.join(MATTE).with_extension(extension);
     std::fs::write(&path, bytes).map_err(|cause| MatteError::Write { path: path.clone(), cause })?;
     Ok(path)
 }
@@ -82,8 +80,9 @@ pub fn matte_bytes(
         return Err(MatteError::Shape { body: body_size, photo: size });
     }
     let picture = coded(photo, intrinsic, keep_surface.clamp(0.0, 1.0) as f32);
-    let (extension, encoded) = container::encode(photo, picture);
-    let path = PathBuf::from(format!("matte.{extension}"));
+    let (format, encoded) = container::encode(photo, picture);
+    let extension = format.extension();
+    let path = Path::new(MATTE).with_extension(extension);
     encoded.map(|bytes| (extension, bytes)).map_err(|reason| MatteError::Encode { path, reason })
 }
 

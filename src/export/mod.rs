@@ -11,6 +11,7 @@ mod floats;
 mod foreign;
 mod leftovers;
 mod matte;
+mod matte_format;
 mod palette;
 mod pictures;
 mod png;

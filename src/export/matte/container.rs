@@ -3,6 +3,7 @@
 mod tiff;
 
 use super::Picture;
+use crate::export::matte_format::MatteFormat;
 use crate::photo::{Density, DensityUnit, Format, Layout, Photo, Samples, Source, ToneCurve};
 use image::codecs::jpeg::{JpegEncoder, PixelDensity, PixelDensityUnit};
 use image::{ExtendedColorType, ImageEncoder};
@@ -13,8 +14,8 @@ const JPEG_QUALITY: u8 = 97;
 
 type Encoded = Result<Vec<u8>, String>;
 
-/// The extension of the file, and its bytes.
-pub(super) fn encode(photo: &Photo, picture: Picture) -> (&'static str, Encoded) {
+/// The format of the file, and its bytes.
+pub(super) fn encode(photo: &Photo, picture: Picture) -> (MatteFormat, Encoded) {
     let Picture { layout, samples } = picture;
     let source = &photo.source;
     let size = (photo.image.width() as u32, photo.image.height() as u32);
@@ -25,21 +26,27 @@ pub(super) fn encode(photo: &Photo, picture: Picture) -> (&'static str, Encoded)
     match (source.format, samples) {
         (Format::Tiff, samples) | (_, samples @ (Samples::U32(_) | Samples::F32(_))) => {
             let fields = tiff::Fields::of(source, layout, icc);
-            ("tif", tiff::encode(size, layout, samples, &fields).map_err(|error| error.to_string()))
+            (
+                MatteFormat::Tiff,
+                tiff::encode(size, layout, samples, &fields).map_err(|error| error.to_string()),
+            )
         }
         (Format::Jpeg, Samples::U8(samples)) if !layout.has_alpha() => {
-            ("jpg", jpeg(source, size, layout, &samples, icc).map_err(|error| error.to_string()))
+            (MatteFormat::Jpeg, jpeg(source, size, layout, &samples, icc).map_err(|error| error.to_string()))
         }
         (_, Samples::U8(samples)) if 255 % max == 0 => {
             let data: Vec<u8> = samples.iter().map(|&v| v.saturating_mul((255 / max) as u8)).collect();
-            ("png", png(photo, layout, png::BitDepth::Eight, &data, icc).map_err(|error| error.to_string()))
+            (
+                MatteFormat::Png,
+                png(photo, layout, png::BitDepth::Eight, &data, icc).map_err(|error| error.to_string()),
+            )
         }
         (_, Samples::U8(samples)) => {
             let samples = samples.into_iter().map(u16::from).collect();
-            ("png", png_16(photo, layout, samples, icc).map_err(|error| error.to_string()))
+            (MatteFormat::Png, png_16(photo, layout, samples, icc).map_err(|error| error.to_string()))
         }
         (_, Samples::U16(samples)) => {
-            ("png", png_16(photo, layout, samples, icc).map_err(|error| error.to_string()))
+            (MatteFormat::Png, png_16(photo, layout, samples, icc).map_err(|error| error.to_string()))
         }
     }
 }
