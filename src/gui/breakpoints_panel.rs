@@ -16,8 +16,8 @@ const DEFAULT_PIXELS: u32 = 1000;
 /// Width of a panel in which a breakpoint has one line, points.
 const ONE_LINE_PT: f32 = 520.0;
 
-/// Width of the button that removes a breakpoint, with the distance before it, points.
-const REMOVE_PT: f32 = 70.0;
+/// Least and largest width of the choice of a breakpoint's kind, points.
+const KIND_PT: [f32; 2] = [60.0, 138.0];
 
 /// Indentation of a breakpoint's arguments in a line of their own, points.
 const INDENT_PT: f32 = 40.0;
@@ -139,9 +139,19 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, index: usize, breakpoint: &mut Breakp
     is_removed.inner
 }
 
+/// Text of the button that removes a breakpoint.
+const REMOVE: &str = "Remove";
+
+/// Width of the button that removes a breakpoint, points.
+fn remove_width(ui: &Ui) -> f32 {
+    let font = egui::TextStyle::Button.resolve(ui.style());
+    let text = ui.painter().layout_no_wrap(REMOVE.to_owned(), font, egui::Color32::WHITE);
+    text.size().x + 2.0 * ui.spacing().button_padding.x
+}
+
 /// Shows the button that removes a breakpoint; returns whether it was clicked.
 fn remove_button(ui: &mut Ui, number: usize) -> bool {
-    let remove = ui.small_button("Remove").on_hover_text("Take this breakpoint away.");
+    let remove = ui.small_button(REMOVE).on_hover_text("Take this breakpoint away.");
     remove.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("Remove breakpoint {number}")));
     remove.clicked()
 }
@@ -178,16 +188,23 @@ fn kind_control(ui: &mut Ui, state: &State, number: usize, condition: &mut Condi
     let (_, name, tip) =
         ConditionKind::ALL.into_iter().find(|(known, ..)| *known == kind).unwrap_or(ConditionKind::ALL[0]);
     // The button that removes the breakpoint stays in the line.
-    let width = (ui.available_width() - REMOVE_PT).clamp(60.0, 138.0);
-    let combo = ComboBox::from_id_salt("kind").width(width).truncate().selected_text(name);
-    let combo = combo.show_ui(ui, |ui| {
-        for (choice, name, tip) in ConditionKind::ALL {
-            let chosen = ui.selectable_label(choice == kind, name).on_hover_text(tip).clicked();
-            if chosen && choice != kind {
-                *condition = choice.default_condition(state);
+    let [least, most] = KIND_PT;
+    let room = ui.available_width() - remove_width(ui) - ui.spacing().item_spacing.x;
+    let width = room.clamp(least, most);
+    let combo = ui.scope(|ui| {
+        // A long name is cut only at the end of the room, whatever the width of the box.
+        ui.set_max_width(room.max(least));
+        let combo = ComboBox::from_id_salt("kind").width(width).truncate().selected_text(name);
+        combo.show_ui(ui, |ui| {
+            for (choice, name, tip) in ConditionKind::ALL {
+                let chosen = ui.selectable_label(choice == kind, name).on_hover_text(tip).clicked();
+                if chosen && choice != kind {
+                    *condition = choice.default_condition(state);
+                }
             }
-        }
+        })
     });
+    let combo = combo.inner;
     set_accessible_name(&combo.response, Role::ComboBox, format!("Condition of breakpoint {number}"));
     combo.response.on_hover_text(tip);
 }

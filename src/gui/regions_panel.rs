@@ -140,8 +140,12 @@ impl RegionsPanel {
                 SortKey::Warnings if !shows_numbers(SortKey::Surface) => 110.0,
                 _ => width,
             };
-            table =
-                table.column(if last { Column::remainder().at_least(width) } else { Column::exact(width) });
+            // A column that is not clipped never gets narrower than its contents were, and these fill it.
+            table = table.column(if last {
+                Column::remainder().at_least(width).clip(true)
+            } else {
+                Column::exact(width)
+            });
         }
         if let Some(row) = selected.and_then(|id| order.iter().position(|&index| index == id.index())) {
             table = table.scroll_to_row(row, None);

@@ -79,8 +79,12 @@ impl HypothesisTable {
         let mut table = TableBuilder::new(ui).striped(false).sense(Sense::CLICK).resizable(false);
         for (key, _, width, _) in COLUMNS {
             let last = key == SortKey::Becomes;
-            table =
-                table.column(if last { Column::remainder().at_least(width) } else { Column::exact(width) });
+            // A column that is not clipped never gets narrower than its contents were, and these fill it.
+            table = table.column(if last {
+                Column::remainder().at_least(width).clip(true)
+            } else {
+                Column::exact(width)
+            });
         }
         if let Some(row) = order.iter().position(|&index| Some(rows[index].hypothesis) == focus) {
             table = table.scroll_to_row(row, None);

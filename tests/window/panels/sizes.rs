@@ -4,12 +4,16 @@ use crate::window::{
     Fixture, Window, apply, named, open_sample, press, region, says, shown, state, tiny_window, window,
     with_gpu,
 };
-use dichroscope::app::{Command, DebugCommand, Edit, JobCommand, ViewCommand};
+use dichroscope::app::{
+    Breakpoint, CandidateCheck, Command, Condition, DebugCommand, DebugSettings, Edit, JobCommand,
+    ViewCommand,
+};
 use dichroscope::gui::Pane;
 use dichroscope::trace::{Event, Topic};
 use dichroscope::view::{Arrangement, Item, Layer, Origin, Theme};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, Vec2, vec2};
+use egui_kittest::kittest::NodeT as _;
 
 /// Lengths of a side, points.
 const SIDES: [f32; 9] = [1.0, 7.0, 17.0, 33.0, 49.0, 96.0, 170.0, 500.0, 9000.0];
@@ -154,4 +158,40 @@ fn choose(window: &mut Window, letters: &str) {
     window.run_steps(2);
     press(window, Modifiers::NONE, Key::Enter);
     window.run_steps(2);
+}
+
+/// Fails where a widget ends beyond the right edge of a window of this width.
+#[track_caller]
+fn assert_ends_within(window: &Window, width: f32, what: &str) {
+    for node in window.root().children_recursive() {
+        let Some(words) = crate::window::words(&node).filter(|words| !words.is_empty()) else { continue };
+        let right = node.rect().right();
+        assert!(right <= width + 0.5, "{what}: {words} ends at {right} of {width}");
+    }
+}
+
+#[test]
+fn lists_end_within_a_panel_that_was_wider_before() {
+    let mut window = tiny_window();
+    let conditions = [
+        Condition::HypothesisRejected,
+        Condition::CandidateFails(CandidateCheck::Any),
+        Condition::Conflict(None, None),
+        Condition::PixelChangesOwner(dichroscope::raster::PixelIndex::from_index(0)),
+    ];
+    let breakpoints = conditions.map(|condition| Breakpoint { enabled: true, condition }).to_vec();
+    let settings = DebugSettings { breakpoints, ..state(&window).view.debug.clone() };
+    apply(&mut window, Command::Debug(DebugCommand::Settings(settings)));
+    let steps = state(&window).debugger.trace().unwrap().len();
+    for (pane, step, narrow) in
+        [(Pane::Regions, steps, 500.0), (Pane::Regions, steps - 1, 500.0), (Pane::Breakpoints, steps, 280.0)]
+    {
+        apply(&mut window, Command::Debug(DebugCommand::Seek(step)));
+        window.state_mut().show_alone(Some(pane));
+        for width in [1400.0, narrow, 900.0, narrow + 30.0, narrow] {
+            window.set_size(vec2(width, 500.0));
+            window.run_steps(4);
+            assert_ends_within(&window, width, &format!("{pane:?} after {step} steps"));
+        }
+    }
 }
