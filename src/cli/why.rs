@@ -5,8 +5,8 @@ use super::{Outcome, note, print};
 use anyhow::Result;
 use clap::Args;
 use dichroscope::analysis::{Stage, WhatIfObserver, what_if};
-use dichroscope::describe::{Condensed, Names, condense, what_if_sentence};
-use dichroscope::intrinsic::PixelKind;
+use dichroscope::describe::{Condensed, Names, condense, reason_label, what_if_sentence};
+use dichroscope::intrinsic::{PixelKind, Reason};
 use dichroscope::raster::{PixelIndex, RegionId};
 use dichroscope::trace::lineage;
 use indicatif::{ProgressBar, ProgressStyle};
@@ -124,7 +124,7 @@ fn history(traced: &Traced, pixel: usize) -> String {
     text
 }
 
-/// `pixel (12, 7), color (120.3, 40.1, 38.8) counts: matte, in region 3`
+/// `pixel (12, 7), color (120.3, 40.1, 38.8) counts: matte, in region 3`, and the reason where the pixel is not explained.
 fn headline(traced: &Traced, pixel: usize) -> String {
     let [r, g, b] = traced.image.pixels[pixel];
     let what = match region_of(traced, pixel) {
@@ -134,8 +134,12 @@ fn headline(traced: &Traced, pixel: usize) -> String {
             format!("{}, in region {region}", kind.name())
         }
     };
+    let why = match traced.analysis.intrinsic.reasons[pixel] {
+        Reason::Explained => String::new(),
+        reason => format!(", not explained: {}", reason_label(reason)),
+    };
     let [x, y] = PixelIndex::from_index(pixel).position(traced.image.width());
-    format!("pixel ({x}, {y}), color ({r:.1}, {g:.1}, {b:.1}) counts: {what}\n")
+    format!("pixel ({x}, {y}), color ({r:.1}, {g:.1}, {b:.1}) counts: {what}{why}\n")
 }
 
 fn region_of(traced: &Traced, pixel: usize) -> Option<RegionId> {

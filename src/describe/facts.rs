@@ -98,8 +98,8 @@ impl Report {
 /// Number of pixels with each reason.
 fn reasons(analysis: &Analysis) -> BTreeMap<String, usize> {
     let mut counts = [0usize; Reason::ALL.len()];
-    for (pixel, &reason) in analysis.intrinsic.reasons.as_slice().iter().enumerate() {
-        counts[reason as usize] += usize::from(!analysis.masks.outside(pixel));
+    for &reason in analysis.intrinsic.reasons.as_slice() {
+        counts[reason as usize] += 1;
     }
     Reason::ALL.iter().zip(counts).map(|(reason, count)| (reason.name().to_owned(), count)).collect()
 }

@@ -8,6 +8,7 @@ mod distances;
 mod histograms;
 
 use super::background_value::{BackgroundValue, SYNCHRONOUS_PX};
+use super::cursor_owners::{CursorOwners, CursorPlace};
 use super::{PanelContext, widgets};
 use crate::app::State;
 use crate::describe::Names;
@@ -23,14 +24,16 @@ use std::sync::Arc;
 /// Identity of the answers: generation of the trace, pixel, and hypothesis id.
 type WhyKey = (u64, Option<PixelIndex>, Option<HypothesisId>);
 
-/// Identity of the findings about marked pixels: generation of the result, and address of the mask.
-type MarkedKey = (u64, usize);
+/// Identity of the findings about marked pixels: generation of the result, address of the mask, and place of the debugger's cursor,
+/// where that is followed.
+type MarkedKey = (u64, usize, Option<CursorPlace>);
 
 /// The inspector, with the answers and findings that were computed last.
 #[derive(Default)]
 pub struct InspectorPanel {
     show_answers: BackgroundValue<WhyKey, Why>,
     marked: BackgroundValue<MarkedKey, Option<Inspection>>,
+    owners: CursorOwners,
     /// The findings about the step at the cursor: generation of the trace, number of steps taken, findings.
     step: Option<(u64, usize, Option<Inspection>)>,
     /// Height of the block of the selected item, which a hovered item keeps, so that nothing below moves with the pointer; points.
@@ -115,9 +118,10 @@ impl InspectorPanel {
     /// The findings about the marked pixels.
     fn inspected_marked(&mut self, ui: &Ui, state: &State) -> Option<Inspection> {
         let (mask, shown) = (state.document.selection.marked.clone()?, state.shown().cloned()?);
-        let key = (shown.generation, Arc::as_ptr(&mask) as usize);
+        let (place, cursor) = self.owners.get(state).unzip();
+        let key = (shown.generation, Arc::as_ptr(&mask) as usize, place);
         let synchronous = mask.len() <= SYNCHRONOUS_PX;
-        let make = move || inspect_marked(&shown, &mask);
+        let make = move || inspect_marked(&shown, &mask, cursor.as_deref());
         self.marked.get(ui.ctx(), key, synchronous, make).cloned().flatten()
     }
 

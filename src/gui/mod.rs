@@ -13,6 +13,7 @@ mod compact_dock;
 mod compare_panel;
 mod context_menu;
 mod cube_panel;
+mod cursor_owners;
 mod dock;
 mod dropped_files;
 mod elsewhere_section;

@@ -2,13 +2,14 @@
 
 use super::action::Action;
 use super::background_value::{BackgroundValue, SYNCHRONOUS_PX};
+use super::cursor_owners::{CursorOwners, CursorPlace};
 use super::named_marks_list::NamedMarksList;
 use super::theme::{BODY_PT, SMALL_PT};
 use super::{PanelContext, widgets};
 use crate::app::Edit;
-use crate::raster::Mask;
+use crate::raster::{Mask, UNASSIGNED};
 use crate::trace::Class;
-use crate::view::{Band, Item, Statistics, statistics, statistics_of};
+use crate::view::{Band, Item, OwnerKind, Statistics, statistics, statistics_of};
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Color32, FontId, Label, RichText, ScrollArea, Sense, Ui, pos2, vec2};
 use std::sync::Arc;
@@ -16,13 +17,15 @@ use std::sync::Arc;
 /// Height of a band's histogram, points.
 const HISTOGRAM_PT: f32 = 36.0;
 
-/// Identity of the statistics: generation of the result, and address of the mask of marked pixels, otherwise the item.
-type StatisticsKey = (u64, Option<usize>, Option<Item>);
+/// Identity of the statistics: generation of the result, address of the mask of marked pixels, otherwise the item, and place of the
+/// debugger's cursor, where that is followed.
+type StatisticsKey = (u64, Option<usize>, Option<Item>, Option<CursorPlace>);
 
 /// The selection panel.
 #[derive(Default)]
 pub struct SelectionPanel {
     statistics: BackgroundValue<StatisticsKey, Option<Statistics>>,
+    owners: CursorOwners,
     named_marks: NamedMarksList,
 }
 
@@ -51,16 +54,13 @@ impl SelectionPanel {
                 return widgets::placeholder(ui, cx.palette, hint);
             }
         };
-        let subject = match state.followed() {
-            Some(_) => format!("{subject}, at the end of the analysis"),
-            None => subject,
-        };
         let mask_address = marked.as_ref().map(|mask: &Arc<Mask>| Arc::as_ptr(mask) as usize);
-        let key = (shown.generation, mask_address, item.filter(|_| marked.is_none()));
+        let (place, cursor) = self.owners.get(state).unzip();
+        let key = (shown.generation, mask_address, item.filter(|_| marked.is_none()), place);
         let synchronous = shown.labels().len() <= SYNCHRONOUS_PX;
         let make = move || match (marked, item) {
-            (Some(mask), _) => statistics(&shown, &mask),
-            (None, item) => item.and_then(|item| statistics_of(&shown, item)),
+            (Some(mask), _) => statistics(&shown, &mask, cursor.as_deref()),
+            (None, item) => statistics_of(&shown, item?, cursor.as_deref()),
         };
         let found = self.statistics.get(ui.ctx(), key, synchronous, make);
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
@@ -74,9 +74,11 @@ impl SelectionPanel {
                     }
                     Some(None) => {
                         buttons(ui, cx, &subject);
-                        ui.label(
-                            RichText::new("No pixel of the picture is in it.").color(cx.palette.secondary),
-                        );
+                        let text = match place {
+                            Some(_) => "No pixel of the picture is in it so far.",
+                            None => "No pixel of the picture is in it.",
+                        };
+                        ui.label(RichText::new(text).color(cx.palette.secondary));
                     }
                     None => {
                         ui.label(RichText::new("counting\u{2026}").color(cx.palette.secondary));
@@ -129,7 +131,7 @@ fn facts(ui: &mut Ui, cx: &PanelContext, found: &Statistics) {
         let mut job = LayoutJob::default();
         let font = FontId::proportional;
         job.append(name, 0.0, TextFormat::simple(font(SMALL_PT), cx.palette.secondary));
-        job.append(&value, 4.0, TextFormat::simple(font(BODY_PT), cx.palette.text));
+        job.append(&format!(" {value}"), 0.0, TextFormat::simple(font(BODY_PT), cx.palette.text));
         ui.add(Label::new(job).selectable(true).extend()).on_hover_text(tip);
         ui.add_space(8.0);
     };
@@ -161,16 +163,15 @@ fn facts(ui: &mut Ui, cx: &PanelContext, found: &Statistics) {
     let percent = |n: usize| format!("{:.1} %", 100.0 * n as f64 / found.pixels.max(1) as f64);
     fact(ui, "clipped", percent(found.clipped), "A band is at or above the clipping threshold (section 4).");
     fact(ui, "dark", percent(found.dark), "Inside the dark sphere: not analyzed (section 5.3).");
-    let regions: Vec<String> = found
-        .regions
-        .iter()
-        .take(4)
-        .map(|&(id, n)| {
-            let name = id.map_or("none".to_owned(), |id| id.to_string());
-            format!("{name}: {}", percent(n))
-        })
-        .collect();
-    fact(ui, "regions", regions.join("   "), "The regions that most of them are in.");
+    let owners = found.owners.iter().take(4).map(|&(label, n)| match label {
+        UNASSIGNED => format!("none: {}", percent(n)),
+        _ => format!("{label}: {}", percent(n)),
+    });
+    let tip = match found.owner_kind {
+        OwnerKind::Region => "The regions that most of them are in.",
+        OwnerKind::Hypothesis => "The hypotheses that own most of them at the debugger's cursor.",
+    };
+    fact(ui, found.owner_kind.plural(), owners.collect::<Vec<_>>().join("   "), tip);
 }
 
 /// Shows the table of the bands with their histograms.

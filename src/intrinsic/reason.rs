@@ -42,11 +42,15 @@ pub enum Reason {
     Collinear,
     /// Every band is clipped.
     ClippedAllBands,
+    /// The pixel lies outside the area that the analysis is restricted to.
+    OutsideArea,
+    /// The file holds no usable value of the pixel.
+    NoValue,
 }
 
 impl Reason {
     /// All reasons, in the order of their definition.
-    pub const ALL: [Self; 10] = [
+    pub const ALL: [Self; 12] = [
         Self::Explained,
         Self::Shadow,
         Self::NoMatteLine,
@@ -57,6 +61,8 @@ impl Reason {
         Self::OtherObject,
         Self::Collinear,
         Self::ClippedAllBands,
+        Self::OutsideArea,
+        Self::NoValue,
     ];
 
     /// Name of the reason in reports and tables.
@@ -72,6 +78,8 @@ impl Reason {
             Self::OtherObject => "other_object",
             Self::Collinear => "collinear",
             Self::ClippedAllBands => "clipped_all_bands",
+            Self::OutsideArea => "outside_area",
+            Self::NoValue => "no_value",
         }
     }
 }
@@ -134,6 +142,12 @@ impl ReasonInput<'_> {
     /// The reason of one pixel. `of_region`: the reasons of the regions, by [`RegionId::index`].
     fn of_pixel(&self, pixel: usize, of_region: &[Reason]) -> Reason {
         let region = RegionId::from_label(self.labels[pixel]);
+        if self.masks.outside(pixel) {
+            return Reason::OutsideArea;
+        }
+        if self.masks.invalid(pixel) {
+            return Reason::NoValue;
+        }
         if self.masks.dark(pixel) && region.is_none() {
             return Reason::Shadow;
         }
@@ -167,7 +181,9 @@ impl ReasonInput<'_> {
 
 #[cfg(test)]
 mod tests {
-    use super::Reason::{ClippedAllBands, Explained, MixedBoundary, NoMatteLine, Shadow};
+    use super::Reason::{
+        ClippedAllBands, Explained, MixedBoundary, NoMatteLine, NoValue, OutsideArea, Shadow,
+    };
     use super::*;
     use crate::photo::{LinearImage, MaskLimits};
 
@@ -194,5 +210,25 @@ mod tests {
             [Shadow, MixedBoundary, Explained, ClippedAllBands, MixedBoundary, NoMatteLine, NoMatteLine]
         );
         assert!(Reason::ALL.iter().enumerate().all(|(i, reason)| *reason as usize == i));
+    }
+
+    #[test]
+    fn what_is_left_out_is_no_shadow() {
+        let row = vec![[5.0; 3], [5.0; 3], [f32::NAN; 3], [80.0; 3]];
+        let image = LinearImage::new(Raster::from_vec(4, 1, row).unwrap(), Some(255.0));
+        let limits = MaskLimits { min_intensity: 23.0, clip_threshold: 240.0, bloom_density: 9 };
+        let area = Mask::from_vec(4, 1, vec![true, false, true, false]).unwrap();
+        let found = ReasonInput {
+            masks: &Masks::new(&image, &limits).within(&area),
+            labels: &LabelMap::filled(4, 1, UNASSIGNED),
+            explained_mask: &Raster::filled(4, 1, false),
+            kinds: &Raster::filled(4, 1, PixelKind::Unassigned),
+            noise: &Raster::filled(4, 1, 0.0),
+            regions: &[],
+            light: None,
+            pixel_sigmas: &[],
+        }
+        .reasons();
+        assert_eq!(found.as_slice(), [Shadow, OutsideArea, NoValue, OutsideArea]);
     }
 }

@@ -22,6 +22,7 @@ mod legend_entry;
 pub mod marking;
 mod meaning;
 mod named_marks;
+mod owners;
 mod picture;
 mod pixel_amounts;
 mod pixel_reading;
@@ -70,6 +71,7 @@ pub use layers::{
 pub use legend_entry::LegendEntry;
 pub use meaning::{ACCENT, Meaning};
 pub use named_marks::{NamedMark, NamedMarks};
+pub use owners::{OwnerKind, OwnersAtCursor};
 pub use picture::{Origin, Picture};
 pub use pixel_amounts::{Amounts, PixelAmounts};
 pub use pixel_reading::{AnalyzedPixel, PixelReading};

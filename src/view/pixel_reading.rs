@@ -2,7 +2,7 @@
 //! the inspector show the same reading.
 
 use super::{ElsewherePixel, Lamp, LampOfPixels, Picture, PixelAmounts, RegionNames, ResultSnapshot};
-use crate::intrinsic::PixelKind;
+use crate::intrinsic::{PixelKind, Reason};
 use crate::raster::{HypothesisId, PixelIndex};
 use crate::trace::{Class, Replay};
 
@@ -26,6 +26,8 @@ pub struct AnalyzedPixel {
     pub class: Option<Class>,
     /// Kind of the pixel: matte, highlight and so on.
     pub kind: PixelKind,
+    /// Reason why the pixel is not explained; none at the debugger's cursor.
+    pub reason: Option<Reason>,
     /// Number of the region; at the debugger's cursor, of the hypothesis.
     pub region: Option<u16>,
     /// The amounts; none in no region.
@@ -60,7 +62,7 @@ impl PixelReading {
         let hypothesis = HypothesisId::from_label(*replay.labels().as_slice().get(working_pixel)?);
         let region = hypothesis.map(HypothesisId::get);
         let kind = replay.kind(working_pixel);
-        let analyzed = AnalyzedPixel { class, kind, region, amounts: None, lamp: None };
+        let analyzed = AnalyzedPixel { class, kind, reason: None, region, amounts: None, lamp: None };
         let chip = hypothesis.map(|hypothesis| names.color(hypothesis));
         let at = [pixel % image.width(), pixel / image.width()];
         Some(Self { at, color, analyzed: Some(analyzed), chip, elsewhere: None })
@@ -75,6 +77,7 @@ impl AnalyzedPixel {
         Self {
             class: shown.classes().get(x / shown.window_px(), y / shown.window_px()).copied().flatten(),
             kind: intrinsic.kinds[pixel],
+            reason: Some(intrinsic.reasons[pixel]),
             region: has_region.then_some(label),
             amounts: PixelAmounts::of(shown, PixelIndex::from_index(pixel)),
             lamp: LampOfPixels::of(&shown.analysis).and_then(|lamps| lamps.at(pixel)),

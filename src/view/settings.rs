@@ -97,6 +97,11 @@ impl Default for ImageSettings {
 }
 
 impl ImageSettings {
+    /// Whether one of the layers on the screen is this one.
+    pub fn shows(&self, layer: Layer) -> bool {
+        self.layer == layer || (self.arrangement != Arrangement::Single && self.other == layer)
+    }
+
     /// How layers are drawn with these settings; `selected` is the region that has its full color while all others are dimmed.
     pub fn look(&self, selected: Option<RegionId>) -> Look {
         let &Self { exposure_ev, gamma, fill, opacity, .. } = self;

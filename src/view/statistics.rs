@@ -1,8 +1,9 @@
-//! Figures about a set of pixels: their number, colors, places and regions.
+//! Figures about a set of pixels: their number, colors, places and owners.
 
-use super::{Item, ResultSnapshot, marking};
+use super::owners::Owners;
+use super::{Item, OwnerKind, OwnersAtCursor, ResultSnapshot, marking};
 use crate::color::{Moments, principal_axes};
-use crate::raster::{Mask, RegionId};
+use crate::raster::{Mask, UNASSIGNED};
 use crate::segment::Classifier;
 use crate::trace::Class;
 use rayon::prelude::*;
@@ -37,8 +38,10 @@ pub struct Statistics {
     pub class: Option<Class>,
     /// The smallest rectangle that holds the pixels.
     pub bounds: Bounds,
-    /// The regions of the pixels, each with its number of pixels, the largest number first; of equal numbers, pixels of no region come last.
-    pub regions: Vec<(Option<RegionId>, usize)>,
+    /// What the owners of the pixels are.
+    pub owner_kind: OwnerKind,
+    /// The labels of the owners, each with its number of pixels, the largest number first; of equal numbers, pixels of no owner (label 0) come last.
+    pub owners: Vec<(u16, usize)>,
     /// Number of pixels with a clipped band.
     pub clipped: usize,
     /// Number of pixels that take no part: too dark, invalid, or outside of the area of the analysis.
@@ -71,19 +74,34 @@ pub struct Bounds {
     pub height: usize,
 }
 
-/// The figures about the pixels of an item; none where the item has no pixels.
-pub fn statistics_of(shown: &ResultSnapshot, item: Item) -> Option<Statistics> {
-    statistics(shown, &marking::mask_of(item, shown)?)
+/// The figures about the pixels of an item; none where the item has no pixels. Pixels and owners are those at the debugger's cursor
+/// where `cursor` is given, otherwise those of the result.
+pub fn statistics_of(
+    shown: &ResultSnapshot,
+    item: Item,
+    cursor: Option<&OwnersAtCursor>,
+) -> Option<Statistics> {
+    let mask = match cursor {
+        Some(cursor) => cursor.mask_of(item, shown),
+        None => marking::mask_of(item, shown),
+    };
+    statistics(shown, &mask?, cursor)
 }
 
-/// The figures about the pixels of a mask; none where the mask holds no pixel, or is not of the picture's size.
-pub fn statistics(shown: &ResultSnapshot, mask: &Mask) -> Option<Statistics> {
+/// The figures about the pixels of a mask; none where the mask holds no pixel, or is not of the picture's size. The owners are those at
+/// the debugger's cursor where `cursor` is given, otherwise the regions of the result.
+pub fn statistics(
+    shown: &ResultSnapshot,
+    mask: &Mask,
+    cursor: Option<&OwnersAtCursor>,
+) -> Option<Statistics> {
     let (width, height) = shown.picture.size();
     if (mask.width(), mask.height()) != (width, height) || mask.is_empty() {
         return None;
     }
     let full_counts = shown.picture.histogram.full_counts;
-    let scan = PixelScan { shown, mask, per_count: STATISTICS_BINS as f32 / full_counts };
+    let owners = Owners::new(shown, cursor);
+    let scan = PixelScan { shown, mask, owners, per_count: STATISTICS_BINS as f32 / full_counts };
     let rows = height.div_ceil(MOST_PARTS);
     let firsts: Vec<usize> = (0..height).step_by(rows).collect();
     let parts: Vec<PartialSums> =
@@ -96,10 +114,8 @@ pub fn statistics(shown: &ResultSnapshot, mask: &Mask) -> Option<Statistics> {
     let refined = shown.params.refinements().tail_test;
     let mut classifier = Classifier::new(shown.analysis.used.camera_noise, refined);
     let (variances, axes) = principal_axes(&whole.counted.covariance());
-    let counted = (0..).zip(&whole.regions).filter(|(_, n)| **n > 0);
-    let mut regions: Vec<(Option<RegionId>, usize)> =
-        counted.map(|(label, &n)| (RegionId::from_label(label), n)).collect();
-    regions.sort_by_key(|&(region, n)| (std::cmp::Reverse(n), region.is_none(), region));
+    let mut counted: Vec<(u16, usize)> = (0..).zip(whole.owners).filter(|(_, n)| *n > 0).collect();
+    counted.sort_by_key(|&(label, n)| (std::cmp::Reverse(n), label == UNASSIGNED, label));
     let [columns, rows] = [whole.columns, whole.rows];
     Some(Statistics {
         pixels: whole.pixels,
@@ -121,7 +137,8 @@ pub fn statistics(shown: &ResultSnapshot, mask: &Mask) -> Option<Statistics> {
             width: columns[1] + 1 - columns[0],
             height: rows[1] + 1 - rows[0],
         },
-        regions,
+        owner_kind: owners.kind,
+        owners: counted,
         clipped: whole.clipped,
         dark: whole.dark,
     })
@@ -131,6 +148,7 @@ pub fn statistics(shown: &ResultSnapshot, mask: &Mask) -> Option<Statistics> {
 struct PixelScan<'a> {
     shown: &'a ResultSnapshot,
     mask: &'a Mask,
+    owners: Owners<'a>,
     /// Bins of the histogram per count.
     per_count: f32,
 }
@@ -148,7 +166,7 @@ struct PartialSums {
     columns: [usize; 2],
     /// First and last row.
     rows: [usize; 2],
-    regions: Vec<usize>,
+    owners: Vec<usize>,
     clipped: usize,
     dark: usize,
 }
@@ -162,9 +180,9 @@ struct BandCounts {
 impl PixelScan<'_> {
     fn sums_of_rows(&self, rows: std::ops::Range<usize>) -> PartialSums {
         let image = &self.shown.picture.photo.image;
-        let (masks, labels) = (&self.shown.analysis.masks, self.shown.labels());
+        let masks = &self.shown.analysis.masks;
         let refined = self.shown.params.refinements().tail_test;
-        let mut part = PartialSums::new(self.shown.analysis.finals.hypotheses.len());
+        let mut part = PartialSums::new(self.owners.count);
         for y in rows {
             let first = y * image.width();
             for (x, _) in self.mask.row(y).iter().enumerate().filter(|(_, on)| **on) {
@@ -172,7 +190,7 @@ impl PixelScan<'_> {
                 part.pixels += 1;
                 part.columns = [part.columns[0].min(x), part.columns[1].max(x)];
                 part.rows = [part.rows[0].min(y), part.rows[1].max(y)];
-                if let Some(count) = part.regions.get_mut(usize::from(labels[pixel])) {
+                if let Some(count) = part.owners.get_mut(usize::from(self.owners.label(pixel))) {
                     *count += 1;
                 }
                 part.clipped += usize::from(masks.clipped(pixel));
@@ -231,7 +249,7 @@ impl PixelScan<'_> {
 }
 
 impl PartialSums {
-    fn new(regions: usize) -> Self {
+    fn new(owners: usize) -> Self {
         let counts = || BandCounts { histogram: vec![0; STATISTICS_BINS], coarse: vec![0; COARSE_BINS] };
         Self {
             pixels: 0,
@@ -243,7 +261,7 @@ impl PartialSums {
             counted: Moments::default(),
             columns: [usize::MAX, 0],
             rows: [usize::MAX, 0],
-            regions: vec![0; regions + 1],
+            owners: vec![0; owners + 1],
             clipped: 0,
             dark: 0,
         }
@@ -277,7 +295,7 @@ impl PartialSums {
             add(&mut self.bands[k].histogram, &other.bands[k].histogram);
             add(&mut self.bands[k].coarse, &other.bands[k].coarse);
         }
-        for (count, more) in self.regions.iter_mut().zip(other.regions) {
+        for (count, more) in self.owners.iter_mut().zip(other.owners) {
             *count += more;
         }
         self
@@ -315,21 +333,22 @@ fn add(counts: &mut [u32], more: &[u32]) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::raster::RegionId;
     use crate::view::testing::tiny;
 
     #[test]
     fn the_figures_of_a_region_are_those_of_its_report() {
         let shown = tiny();
         let reflection = &shown.analysis.intrinsic.regions[0];
-        let found = statistics_of(&shown, Item::Region(RegionId::from_index(0))).unwrap();
+        let found = statistics_of(&shown, Item::Region(RegionId::from_index(0)), None).unwrap();
         assert_eq!(
-            (found.pixels, found.regions.as_slice()),
-            (reflection.pixels, [(RegionId::from_label(1), reflection.pixels)].as_slice())
+            (found.pixels, found.owners.as_slice()),
+            (reflection.pixels, [(1, reflection.pixels)].as_slice())
         );
         assert_eq!(found.clipped, reflection.clipped_pixels);
-        assert!(statistics_of(&shown, Item::Region(RegionId::from_index(998))).is_none());
+        assert!(statistics_of(&shown, Item::Region(RegionId::from_index(998)), None).is_none());
         let other = Mask::filled(1, 1, true);
-        assert!(statistics(&shown, &other).is_none(), "a mask of another size");
+        assert!(statistics(&shown, &other, None).is_none(), "a mask of another size");
     }
 
     #[test]
@@ -339,7 +358,7 @@ mod tests {
         for step in [1, 2, 7, width * height - 1] {
             let on = (0..width * height).map(|pixel| pixel % step == 0).collect();
             let mask = Mask::from_vec(width, height, on).unwrap();
-            let found = statistics(&shown, &mask).unwrap();
+            let found = statistics(&shown, &mask, None).unwrap();
             let pixels = &shown.picture.photo.image.pixels;
             let chosen: Vec<usize> = (0..pixels.len()).filter(|&pixel| mask[pixel]).collect();
             assert_eq!((found.pixels, found.valid), (chosen.len(), chosen.len()));
@@ -353,8 +372,8 @@ mod tests {
                 let mean = values.iter().map(|&v| f64::from(v)).sum::<f64>() / values.len() as f64;
                 assert!((found.mean[k] - mean).abs() < 1e-6);
             }
-            assert_eq!(found.regions.iter().map(|r| r.1).sum::<usize>(), chosen.len());
-            assert!(found.regions.is_sorted_by(|a, b| a.1 >= b.1));
+            assert_eq!(found.owners.iter().map(|r| r.1).sum::<usize>(), chosen.len());
+            assert!(found.owners.is_sorted_by(|a, b| a.1 >= b.1));
             let masks = &shown.analysis.masks;
             assert_eq!(found.dark, chosen.iter().filter(|&&pixel| masks.dark(pixel)).count());
         }
@@ -365,7 +384,7 @@ mod tests {
         let shown = tiny();
         let windows = &shown.analysis.windows;
         for window in 0..windows.classes.len() {
-            let found = statistics_of(&shown, Item::Window(window as u32)).unwrap();
+            let found = statistics_of(&shown, Item::Window(window as u32), None).unwrap();
             let moments = &windows.moments[window];
             assert_eq!(found.counted, moments.n as usize);
             if windows.classes[window].is_some() {

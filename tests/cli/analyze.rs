@@ -237,6 +237,11 @@ fn an_area_restricts_the_analysis_and_must_fit_the_photograph() {
     let assigned = |regions: &[RegionFacts]| regions.iter().map(|region| region.pixels).sum::<usize>();
     assert_eq!((area.file.as_str(), area.pixels), ("mask.png", assigned(&whole.regions)));
     assert_eq!(assigned(&report.regions) + report.unassigned_pixels, area.pixels);
+    let outside = whole.image.width * whole.image.height - area.pixels;
+    assert_eq!((report.reasons["outside_area"], report.reasons["shadow"]), (outside, 0));
+    assert_eq!((whole.reasons["outside_area"], whole.reasons["no_value"]), (0, 0));
+    let told = work.succeeds("why a.png 0,0 --area mask.png");
+    assert!(told.out.contains("in no region, not explained: outside the area\n"), "{}", told.out);
     work.put("small.pgm", b"P5\n2 1\n255\n\0\x01");
     work.fails(1, "analyze a.png --out other --area small.pgm", "a.png: --area small.pgm: the area has 2");
     work.fails(2, "analyze a.png --out other --area none.png", "none.png: cannot be read");

@@ -2,6 +2,7 @@
 
 use super::super::events::{interval_text, passed_over, variances};
 use super::local_history::{surroundings, unfit};
+use super::reason::{NO_VALUE, OUTSIDE_AREA};
 use super::{Names, count, ordinal, percent, won};
 use crate::color::Trial;
 use crate::reflection::{SliceBound, SliceMiss};
@@ -196,8 +197,8 @@ fn masked(verdict: &MaskVerdict) -> String {
             };
             format!("believed: {from_black:.1} counts from black, dark below {dark:.1}; {clip}")
         }
-        MaskVerdict::Outside => "outside the area that is analyzed".to_owned(),
-        MaskVerdict::Invalid => "the file holds no usable value here".to_owned(),
+        MaskVerdict::Outside => OUTSIDE_AREA.to_owned(),
+        MaskVerdict::Invalid => NO_VALUE.to_owned(),
         MaskVerdict::Dark { brightness: [from_black, dark] } => {
             format!("dark: {from_black:.1} counts from black, below {dark:.1}")
         }

@@ -5,11 +5,13 @@ mod full_resolution;
 mod history;
 mod lineage;
 mod local_history;
+mod reason;
 #[cfg(test)]
 mod tests;
 mod what_if;
 
 pub use history::{Condensed, condense};
+pub use reason::{reason_label, reason_meaning};
 pub use what_if::what_if_sentence;
 
 use super::names::{Names, count, ordinal, percent};

@@ -1,11 +1,12 @@
 //! The readout: values of one pixel in groups with fixed widths: place, color, region, amounts in the result, amounts measured.
 
 use crate::app::State;
+use crate::describe::reason_label;
 use crate::gui::glossary::Term;
 use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::gui::widgets::{self, with_subscripts};
 use crate::intrinsic::PixelKind;
-use crate::view::{Amounts, Item, PixelReading, ResultSnapshot};
+use crate::view::{Amounts, Item, Layer, PixelReading, ResultSnapshot};
 use egui::accesskit::Role;
 use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, Ui, WidgetInfo, pos2, vec2};
 use std::sync::Arc;
@@ -49,7 +50,7 @@ const fn word(name: &'static str, widest: &'static str, tip: &'static str) -> Ce
 }
 
 /// The groups of cells. Values are lists of the same shape.
-const GROUPS: [&[Cell]; 7] = [
+const GROUPS: [&[Cell]; 8] = [
     &[
         number("x", "8888", Tip::Text("Column, from 0 at the left")),
         number("y", "8888", Tip::Text("Row, from 0 at the top")),
@@ -91,11 +92,14 @@ const GROUPS: [&[Cell]; 7] = [
         number("B", "888.8", Tip::Text("Diffuse picture of the other program, linear counts of blue")),
     ],
     &[word("lamp", "second", "The lamp that the pixel is split with (section 7.5)")],
+    &[word("why", "clipped in all bands", "Why no skewed T explains the pixel (sections 5.6 and 7.5)")],
 ];
-/// Index of the group of the amounts as measured, of the group of another program's values, and of the group of the lamp.
+/// Index of the group of the amounts as measured, of the group of another program's values, of the group of the lamp, and of the
+/// group of the reason.
 const MEASURED: usize = 4;
 const OTHER: usize = 5;
 const LAMP: usize = 6;
+const REASON: usize = 7;
 
 /// Which groups have values beside those of every photograph.
 #[derive(Clone, Copy)]
@@ -104,12 +108,18 @@ struct Extras {
     other: bool,
     /// The result has two lamps.
     lamps: bool,
+    /// A view shows why pixels are not explained.
+    reasons: bool,
 }
 
 impl Extras {
     fn of(state: &State) -> Self {
         let has_lamps = |shown: &Arc<ResultSnapshot>| shown.analysis.finals.light.second.is_some();
-        Self { other: state.elsewhere.is_some(), lamps: state.shown().is_some_and(has_lamps) }
+        Self {
+            other: state.elsewhere.is_some(),
+            lamps: state.shown().is_some_and(has_lamps),
+            reasons: state.view.image.shows(Layer::Reasons),
+        }
     }
 }
 
@@ -127,6 +137,7 @@ fn shown_groups(ui: &Ui, width: f32, is_low: bool, extras: Extras) -> Vec<(usize
         MEASURED => is_low || width >= NARROW_PT,
         OTHER => extras.other,
         LAMP => extras.lamps,
+        REASON => extras.reasons,
         _ => true,
     };
     let mut at = Pos2::ZERO;
@@ -190,6 +201,7 @@ pub fn show(ui: &mut Ui, state: &State, palette: &ThemeColors, is_low: bool) {
         None,
         readout.as_ref().map(|readout| widgets::own_color(readout.color)),
         readout.as_ref().and_then(|readout| readout.chip).map(widgets::color),
+        None,
         None,
         None,
         None,
@@ -287,6 +299,7 @@ fn values_of(reading: &PixelReading) -> Values {
         if is_in_region { analyzed.kind.name().to_owned() } else { String::new() },
         analyzed.class.map_or_else(String::new, |class| class.name().to_owned()),
     ];
+    values[REASON].extend(analyzed.reason.map(|reason| reason_label(reason).to_owned()));
     values[LAMP].extend(analyzed.lamp.map(|lamp| lamp.name().to_owned()));
     let surface = |amounts: &Amounts| amounts.surface.map_or_else(String::new, counts);
     if let Some(amounts) = &analyzed.amounts {

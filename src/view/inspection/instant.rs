@@ -1,5 +1,6 @@
 //! The findings about an item at the debugger's cursor: what is decided so far, and nothing of what is decided later.
 
+use super::item::left_out;
 use super::{Inspection, Tone};
 use crate::raster::{HypothesisId, PixelIndex, RegionId};
 use crate::trace::{Class, Replay};
@@ -44,6 +45,9 @@ fn of_pixel(
     let analyzed = reading.analyzed?;
     let [x, y] = reading.at;
     let subject = format!("Pixel {x}, {y}");
+    if let Some(found) = left_out(shown, pixel, &subject) {
+        return Some(found);
+    }
     let Some(hypothesis) = analyzed.region.and_then(HypothesisId::from_label) else {
         return Some(finding(subject, "In no hypothesis so far", Tone::Neutral, "5.3"));
     };

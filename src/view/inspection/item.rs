@@ -4,11 +4,13 @@ use super::fits::region_tests;
 use super::step::{holds_verdict, window_tests};
 use super::{Inspection, ThresholdTest, Tone};
 use crate::color::vec3;
+use crate::describe::{reason_label, reason_meaning};
+use crate::intrinsic::Reason;
 use crate::params::Baseline;
-use crate::raster::{Mask, PixelIndex, RegionId};
+use crate::raster::{Mask, PixelIndex, RegionId, UNASSIGNED};
 use crate::trace::{Class, Event, Measured};
 use crate::view::shapes::hypothesis;
-use crate::view::{Item, PixelAmounts, ResultSnapshot, counted, grouped, reason_entry};
+use crate::view::{Item, OwnersAtCursor, PixelAmounts, ResultSnapshot, counted, grouped, reason_entry};
 
 /// The findings about an item; none where the result has no such item.
 pub fn inspect_item(shown: &ResultSnapshot, item: Item) -> Option<Inspection> {
@@ -25,12 +27,12 @@ fn of_pixel(shown: &ResultSnapshot, pixel: PixelIndex) -> Option<Inspection> {
     let color = *shown.picture.photo.image.pixels.as_slice().get(pixel.index())?;
     let [x, y] = pixel.position(shown.picture.size().0);
     let subject = format!("Pixel {x}, {y}");
-    if shown.area.as_ref().is_some_and(|area| area.as_slice().get(pixel.index()) == Some(&false)) {
-        return Some(outside_area(subject));
+    if let Some(found) = left_out(shown, pixel, &subject) {
+        return Some(found);
     }
+    let reason = *analysis.intrinsic.reasons.as_slice().get(pixel.index())?;
     let label = *shown.labels().as_slice().get(pixel.index())?;
     let region = RegionId::from_label(label).filter(|id| id.index() < analysis.intrinsic.regions.len());
-    let reason = reason_entry(*analysis.intrinsic.reasons.as_slice().get(pixel.index())?);
     let kind = analysis.intrinsic.kinds.as_slice().get(pixel.index())?.name();
     let amounts = PixelAmounts::of(shown, pixel);
     let mut tests = mask_tests(color, analysis.used.min_intensity, analysis.used.clip_threshold).to_vec();
@@ -55,7 +57,7 @@ fn of_pixel(shown: &ResultSnapshot, pixel: PixelIndex) -> Option<Inspection> {
             ));
         }
     }
-    let (verdict, tone, sentence) = match (reason, region) {
+    let (verdict, tone, sentence) = match (reason_entry(reason), region) {
         (None, Some(region)) => {
             ("Explained".to_owned(), Tone::Good, format!("{kind} pixel of region {region}"))
         }
@@ -69,17 +71,18 @@ fn of_pixel(shown: &ResultSnapshot, pixel: PixelIndex) -> Option<Inspection> {
     Some(Inspection { subject, verdict, tone, sentence, tests, of_region, section: "6" })
 }
 
-/// The findings about a pixel that a restricted analysis leaves out.
-fn outside_area(subject: String) -> Inspection {
-    Inspection {
-        subject,
-        verdict: "Outside of the analyzed area".to_owned(),
+/// The findings about a pixel that the analysis leaves out from its first stage on; none where it does not.
+pub(super) fn left_out(shown: &ResultSnapshot, pixel: PixelIndex, subject: &str) -> Option<Inspection> {
+    let reason = *shown.analysis.intrinsic.reasons.as_slice().get(pixel.index())?;
+    matches!(reason, Reason::OutsideArea | Reason::NoValue).then(|| Inspection {
+        subject: subject.to_owned(),
+        verdict: format!("Left out: {}", reason_label(reason)),
         tone: Tone::Neutral,
-        sentence: "The analysis is restricted to an area without this pixel, which stays as it is".to_owned(),
+        sentence: format!("{}; the pixel stays as it is", reason_meaning(reason)),
         tests: Vec::new(),
         of_region: None,
         section: "4",
-    }
+    })
 }
 
 /// A region that does not hold, with its values and limits; none where it holds or nobody asks.
@@ -175,22 +178,28 @@ fn of_bin(shown: &ResultSnapshot, bin: u32) -> Option<Inspection> {
     })
 }
 
-/// The findings about marked pixels; none where no pixel of the picture is marked.
-pub fn inspect_marked(shown: &ResultSnapshot, mask: &Mask) -> Option<Inspection> {
-    let found = crate::view::statistics(shown, mask)?;
+/// The findings about marked pixels; none where no pixel of the picture is marked. `cursor`: the owners at the debugger's cursor, where
+/// that is followed.
+pub fn inspect_marked(
+    shown: &ResultSnapshot,
+    mask: &Mask,
+    cursor: Option<&OwnersAtCursor>,
+) -> Option<Inspection> {
+    let found = crate::view::statistics(shown, mask, cursor)?;
     let class = found.class.map_or("of no class", Class::name);
     let share = |n: usize| 100.0 * n as f64 / found.pixels.max(1) as f64;
-    let regions = found.regions.iter().take(3).map(|&(region, n)| {
-        let name = region.map_or_else(|| "no region".to_owned(), |region| format!("region {region}"));
-        format!("{name} {:.0} %", share(n))
+    let kind = found.owner_kind.name();
+    let owners = found.owners.iter().take(3).map(|&(label, n)| match label {
+        UNASSIGNED => format!("no {kind} {:.0} %", share(n)),
+        _ => format!("{kind} {label} {:.0} %", share(n)),
     });
-    let regions = regions.collect::<Vec<_>>().join(", ");
+    let owners = owners.collect::<Vec<_>>().join(", ");
     let most = |name, n: usize, tip| ThresholdTest::at_most(name, Measured::new(share(n), 50.0), "%", tip);
     Some(Inspection {
         subject: "Marked pixels".to_owned(),
         verdict: class.to_owned(),
         tone: Tone::Neutral,
-        sentence: format!("{}: {regions}", counted(found.pixels, "pixel")),
+        sentence: format!("{}: {owners}", counted(found.pixels, "pixel")),
         tests: vec![
             most(
                 "clipped",

@@ -1,5 +1,6 @@
 //! Colors of the layers, with their names and meanings.
 
+use crate::describe::{reason_label, reason_meaning};
 use crate::intrinsic::Reason;
 use crate::view::LegendEntry;
 
@@ -15,13 +16,18 @@ pub(super) const CLASSES: [LegendEntry; 4] = [
     LegendEntry::new("volume", [0, 0, 255], "5.2.1: three directions, clipping or several objects"),
 ];
 
+/// Color of the pixels outside the area.
+const OUTSIDE_COLOR: [u8; 3] = [96, 96, 96];
+/// Color of the pixels without a value.
+const NO_VALUE_COLOR: [u8; 3] = [210, 59, 214];
+
 /// Names, colors and meanings of the masks (section 4). A pixel has the color of the last mask that holds the pixel.
 pub(super) const MASKS: [LegendEntry; 5] = [
     LegendEntry::new("dark", [74, 111, 212], "4: too near to black, its color is mostly noise"),
     LegendEntry::new("bloomed", [240, 128, 32], "4: charge spilled over from clipped neighbors"),
     LegendEntry::new("clipped", [250, 226, 70], "4: a band at or above the clipping threshold"),
-    LegendEntry::new("invalid", [210, 59, 214], "the file holds a negative or no number here"),
-    LegendEntry::new("outside", [128, 128, 128], "outside the area that the analysis is restricted to"),
+    reason(Reason::NoValue, NO_VALUE_COLOR),
+    reason(Reason::OutsideArea, OUTSIDE_COLOR),
 ];
 
 /// The grays of ε (section 6), whose scale is the half width of the slice.
@@ -74,34 +80,25 @@ pub(super) const CONFIDENCE: [LegendEntry; 2] = [
     ),
 ];
 
-/// The reasons why pixels are not explained, in the order of [`crate::intrinsic::Reason::ALL`] from its second entry on.
-pub(super) const REASONS: [LegendEntry; 9] = [
-    LegendEntry::new("shadow", [74, 111, 212], "5.3.2: too dark to be analyzed, shadow or background"),
-    LegendEntry::new("no matte line", [160, 120, 220], "5.3: lit, but on no matte line that was found"),
-    LegendEntry::new("mixed boundary", [120, 190, 200], "6: between two objects, a mixture of both"),
-    LegendEntry::new(
-        "off the plane",
-        [90, 180, 110],
-        "5.6, 7.5: off the plane, light of a neighbor or a second material",
-    ),
-    LegendEntry::new(
-        "texture",
-        [232, 120, 90],
-        "7.5: body and surface reflection vary against each other, a print",
-    ),
-    LegendEntry::new(
-        "part of an object",
-        [200, 170, 90],
-        "3: its region is only a part of an object, the surface reflection ends where the photograph has no edge",
-    ),
-    LegendEntry::new(
-        "other object",
-        [220, 140, 190],
-        "5.5: the clipped highlight of another object than its region's",
-    ),
-    LegendEntry::new("collinear", [150, 150, 150], "7.5: the body has the light's color: gray, white, metal"),
-    LegendEntry::new("clipped in all bands", [250, 226, 70], "5.5: nothing of its color is left to go by"),
+/// The reasons why pixels are not explained, in the order of [`Reason::ALL`] from its second entry on.
+pub(super) const REASONS: [LegendEntry; Reason::ALL.len() - 1] = [
+    reason(Reason::Shadow, [74, 111, 212]),
+    reason(Reason::NoMatteLine, [160, 120, 220]),
+    reason(Reason::MixedBoundary, [120, 190, 200]),
+    reason(Reason::InterReflection, [90, 180, 110]),
+    reason(Reason::Texture, [232, 120, 90]),
+    reason(Reason::PartOfObject, [200, 170, 90]),
+    reason(Reason::OtherObject, [220, 140, 190]),
+    reason(Reason::Collinear, [170, 170, 170]),
+    reason(Reason::ClippedAllBands, [250, 226, 70]),
+    reason(Reason::OutsideArea, OUTSIDE_COLOR),
+    reason(Reason::NoValue, NO_VALUE_COLOR),
 ];
+
+/// The entry of a reason.
+const fn reason(reason: Reason, color: [u8; 3]) -> LegendEntry {
+    LegendEntry::new(reason_label(reason), color, reason_meaning(reason))
+}
 
 /// The lamps, in the order of [`crate::view::Lamp`]. The colors are not those of lamps, so that either lamp may have either.
 pub(super) const LAMPS: [LegendEntry; 2] = [

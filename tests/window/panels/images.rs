@@ -1,8 +1,12 @@
 //! Tests of the image panel on the small photograph: layers, marked pixels, and the area that an analysis
 //! is restricted to.
 
-use crate::window::{at, click, drag, marked, named, press, shown, size, state, tiny_window, undo, zoom_in};
-use dichroscope::view::{Arrangement, Fill, Layer, Tool};
+use crate::window::{
+    apply, at, click, drag, marked, named, press, says, shown, size, state, tiny_window, undo, zoom_in,
+};
+use dichroscope::app::{Command, DebugCommand, Edit};
+use dichroscope::raster::{PixelIndex, RegionId};
+use dichroscope::view::{Arrangement, Fill, Item, Layer, Tool};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 
@@ -96,12 +100,31 @@ fn marks_of_the_image_show_in_the_statistics() {
     let path: Vec<_> = corners.iter().map(|&[x, y]| at(&window, x, y)).collect();
     drag(&mut window, &path, Modifiers::NONE);
     assert_eq!(marked(&window), 1600);
-    assert!(crate::window::says(&window, "Marked pixels") && crate::window::says(&window, "1\u{2009}600"));
+    assert!(says(&window, "Marked pixels") && says(&window, "1\u{2009}600"));
     click(&mut window, Role::Button, "Invert");
     let (width, height) = size(&window);
     assert_eq!(marked(&window), width * height - 1600);
     click(&mut window, Role::Button, "Deselect");
     assert_eq!(marked(&window), 0);
+}
+
+#[test]
+fn the_statistics_are_those_of_the_cursor() {
+    let mut window = tiny_window();
+    click(&mut window, Role::Button, "Selection");
+    apply(&mut window, Edit::Select(Some(Item::Region(RegionId::from_index(0)))));
+    assert!(says(&window, "regions 1: 100.0 %"));
+    apply(&mut window, Command::Debug(DebugCommand::Seek(0)));
+    assert!(says(&window, "No pixel of the picture is in it so far."));
+    let steps = state(&window).debugger.trace().unwrap().len();
+    apply(&mut window, Command::Debug(DebugCommand::Seek(steps - 1)));
+    assert!(says(&window, "hypotheses ") && !says(&window, "regions 1"));
+    let pixel = (0..shown(&window).labels().len()).find(|&pixel| shown(&window).labels()[pixel] == 1);
+    let pixel = Item::Pixel(PixelIndex::from_index(pixel.unwrap()));
+    apply(&mut window, Edit::Select(Some(pixel)));
+    assert!(says(&window, "hypotheses ") && !says(&window, "none: "));
+    apply(&mut window, Command::Debug(DebugCommand::Seek(0)));
+    assert!(says(&window, "hypotheses none: 100.0 %"), "its color is known, its owner is not");
 }
 
 #[test]

@@ -139,7 +139,14 @@ fn a_pixel_outside_of_the_analyzed_area_is_called_so() {
     let outside = labels.as_slice().iter().position(|&label| label == 2).unwrap();
     apply(&mut window, Edit::RestrictTo(Some(Arc::new(area))));
     apply(&mut window, Edit::Select(Some(Item::Pixel(PixelIndex::from_index(outside)))));
-    assert!(says(&window, "Verdict: Outside of the analyzed area") && !says(&window, "shadow"));
+    let is_left_out =
+        |window: &Window| says(window, "Verdict: Left out: outside the area") && !says(window, "shadow");
+    assert!(is_left_out(&window));
+    apply(&mut window, Edit::Select(None));
+    assert!(!is_left_out(&window));
+    apply(&mut window, Edit::Select(Some(Item::Pixel(PixelIndex::from_index(outside)))));
+    apply(&mut window, Command::Debug(DebugCommand::Seek(0)));
+    assert!(is_left_out(&window), "the masks are there from the beginning on");
 }
 
 #[test]
@@ -192,5 +199,12 @@ fn marked_pixels_have_a_block_of_their_own() {
     let mask = Arc::new(labels.map(|&label| label == 2));
     apply(&mut window, Edit::Mark(mask, Combine::Replace, None));
     assert!(says(&window, "region 2 100 %"));
+    apply(&mut window, Command::Debug(DebugCommand::Seek(0)));
+    assert!(says(&window, "no hypothesis 100 %") && !says(&window, "region 2"), "nothing is decided yet");
+    let steps = state(&window).debugger.trace().unwrap().len();
+    apply(&mut window, Command::Debug(DebugCommand::Seek(steps - 1)));
+    assert!(says(&window, "hypothesis ") && !says(&window, "no hypothesis 100 %"));
+    apply(&mut window, Command::Debug(DebugCommand::Seek(steps)));
+    assert!(says(&window, "region 2 100 %"), "the result again");
     click(&mut window, Role::Button, "Copy");
 }
