@@ -9,6 +9,7 @@
 
 mod analysis_worker;
 mod application;
+mod awaited;
 mod command;
 mod command_line;
 mod debugger;

@@ -1,6 +1,8 @@
 //! Photographs that are open beside the one that is shown, and the change from one to another.
 
+use super::awaited::Awaited;
 use super::{Document, History};
+use crate::raster::PixelIndex;
 use crate::view::{Elsewhere, Picture, ResultSnapshot};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -27,6 +29,10 @@ pub struct OpenPhotograph {
     pub found_light: Option<[f64; 3]>,
     /// The workspace file.
     pub workspace_path: Option<PathBuf>,
+    /// The pixel whose history is shown.
+    pub(super) explained_pixel: Option<PixelIndex>,
+    /// What is done as soon as its next result is complete.
+    pub(super) awaited: Awaited,
 }
 
 /// The photograph to show in place of the present one.

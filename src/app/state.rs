@@ -1,9 +1,9 @@
 //! The state of the application.
 
+use super::awaited::{AfterPin, Awaited};
 use super::{
     Debugger, Document, History, JobState, OpenPhotograph, Preview, ViewSettings, WhatIfJob, Workspace,
 };
-use crate::params::Params;
 use crate::raster::{PixelIndex, RegionId};
 use crate::trace::Replay;
 use crate::view::{
@@ -62,13 +62,8 @@ pub struct State {
     pub(super) notices_so_far: u64,
     /// The workspace whose photograph is being read.
     pub(super) restoring: Option<Restoring>,
-    /// Whether the largest region is to be selected when the first result of the photograph is complete: the plane, the color
-    /// space and the history then show something from the start.
-    pub(super) preselects: bool,
-    /// Whether the region of the next complete result is to be selected, although pixels are marked: a skewed T was fitted to them.
-    pub(super) selects_region: bool,
-    /// The rest of a restored workspace, which is applied when its pinned result has been computed.
-    pub(super) after_pin: Option<AfterPin>,
+    /// What is done as soon as the next result is complete.
+    pub(super) awaited: Awaited,
 }
 
 /// A workspace whose photograph is being read.
@@ -78,17 +73,6 @@ pub(super) struct Restoring {
     pub(super) workspace: Box<Workspace>,
     /// The workspace file.
     pub(super) path: PathBuf,
-}
-
-/// The part of a restored workspace that is applied after its pinned result has been computed.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct AfterPin {
-    /// The parameters of the newest result.
-    pub(super) params: Params,
-    /// The selected item.
-    pub(super) item: Option<Item>,
-    /// Whether the pinned result is shown in place of the newest.
-    pub(super) show_pinned: bool,
 }
 
 impl State {
@@ -182,13 +166,18 @@ impl State {
         self.notices.retain(|notice| !notice.of_photograph);
         self.debugger = Debugger::default();
         self.preview = None;
-        self.after_pin = None;
         self.hover = None;
         self.hover_pixels = Arc::default();
         self.explained_pixel = None;
         self.view.show_pinned = false;
-        self.preselects = false;
-        self.selects_region = false;
+        self.awaited = Awaited::default();
+    }
+
+    /// Gives up the pinned result of a restored workspace, where that is being computed: the parameters are those of the newest result.
+    pub(super) fn give_up_pin(&mut self) {
+        if let Some(after) = self.awaited.after_pin.take() {
+            self.document.params = after.params;
+        }
     }
 
     /// The photograph that the second view shows for comparison: the next open one.
@@ -299,7 +288,16 @@ impl State {
         let picture =
             self.picture.as_ref().ok_or("there is no workspace to save: open a photograph first")?;
         let pinned = self.pinned.as_ref().map(|pinned| &pinned.params);
-        let mut workspace = Workspace::new(picture, &self.document, pinned, &self.view)?;
+        let mut workspace = match self.awaited.after_pin {
+            None => Workspace::new(picture, &self.document, pinned, &self.view)?,
+            // The parameters of the document are those of the pinned result, which is being computed.
+            Some(AfterPin { params, item, show_pinned }) => {
+                let mut document = Document { params, ..self.document.clone() };
+                document.selection.item = item;
+                let view = ViewSettings { show_pinned, ..self.view.clone() };
+                Workspace::new(picture, &document, Some(&self.document.params), &view)?
+            }
+        };
         workspace.elsewhere =
             self.elsewhere.as_ref().map_or_else(ElsewherePaths::default, |all| all.paths.clone());
         Ok(workspace)

@@ -96,9 +96,7 @@ pub(super) fn edit_params(
     gesture: Option<Gesture>,
     change: impl FnOnce(&mut Params),
 ) -> Vec<Effect> {
-    if let Some(after) = state.after_pin.take() {
-        state.document.params = after.params;
-    }
+    state.give_up_pin();
     let mut params = state.document.params;
     change(&mut params);
     if let Err(invalid) = params.validate() {
@@ -168,9 +166,7 @@ fn tell_of_lost_lamp(state: &mut State, method: Method) {
 /// Chooses the method by hand and restricts the analysis to the marked pixels, in one step of the history. Their region is selected when the
 /// result is there.
 fn fit_skewed_t(state: &mut State, marked: Arc<Mask>) -> Vec<Effect> {
-    if let Some(after) = state.after_pin.take() {
-        state.document.params = after.params;
-    }
+    state.give_up_pin();
     tell_of_lost_lamp(state, Method::ByHand);
     let params = with_method(&state.document.params, Method::ByHand);
     if params == state.document.params
@@ -182,7 +178,7 @@ fn fit_skewed_t(state: &mut State, marked: Arc<Mask>) -> Vec<Effect> {
         (document.params, document.area) = (params, Some(marked));
         document.selection.item = None;
     });
-    state.selects_region = !effects.is_empty();
+    state.awaited.selects_region = !effects.is_empty();
     effects
 }
 

@@ -1,11 +1,15 @@
 //! Tests of files that are opened together: their order, files that cannot be read, pictures of another program, and workspaces.
 
 use super::{reduce, reduce_report};
+use crate::app::awaited::AfterPin;
 use crate::app::report::Report;
-use crate::app::{Application, Edit, Effect, Executor, ExportKind, JobCommand, Severity, State, Switching};
+use crate::app::{
+    Application, Edit, Effect, Executor, ExportKind, JobCommand, Question, Severity, State, Switching,
+};
 use crate::export::png_of_gray;
-use crate::params::{Parameter, Setting};
-use crate::view::testing::gray;
+use crate::params::{Parameter, Params, Setting};
+use crate::raster::PixelIndex;
+use crate::view::testing::{gray, tiny};
 use crate::view::{Elsewhere, ElsewhereKind, ElsewherePaths, Layer, Origin};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -198,4 +202,41 @@ fn a_photograph_that_is_read_again_with_others_keeps_its_label_map() {
     assert!(state.elsewhere.is_none(), "b.png has none");
     let of_a = state.others[0].elsewhere.as_ref().expect("the label map of a.png");
     assert_eq!(of_a.paths, labels);
+}
+
+#[test]
+fn what_a_photograph_waits_for_comes_also_after_another_one_was_shown() {
+    let result = tiny();
+    let mut state = State::default();
+    reduce_report(&mut state, Report::Opened(Arc::clone(&result.picture)));
+    reduce_report(&mut state, Report::Opened(gray(&[".."], 9)));
+    reduce(&mut state, JobCommand::Switch(Switching::Next));
+    state.generation = result.generation;
+    reduce_report(&mut state, Report::Analyzed(Arc::clone(&result)));
+    assert!(state.selected_region().is_some(), "the largest region is selected by the first result");
+    let pixel = PixelIndex::from_index(5);
+    reduce(&mut state, Question::Why(pixel));
+    for _ in 0..2 {
+        reduce(&mut state, JobCommand::Switch(Switching::Next));
+    }
+    assert_eq!(state.explained_pixel(), Some(pixel), "the clicked pixel is kept with its photograph");
+}
+
+#[test]
+fn a_workspace_whose_pinned_result_is_being_computed_is_saved_and_left_whole() {
+    let mut picture = Arc::into_inner(gray(&[".."], 9)).unwrap();
+    picture.origin = Origin::File("a.png".into());
+    let mut state = State::default();
+    reduce_report(&mut state, Report::Opened(Arc::new(picture)));
+    let (pinned, params) = (Params::paper(), Params::default());
+    state.document.params = pinned;
+    state.awaited.after_pin = Some(AfterPin { params, item: None, show_pinned: true });
+    let is_whole = |state: &State| {
+        let saved = state.workspace().unwrap();
+        (saved.params, saved.pinned) == (params, Some(pinned)) && saved.view.show_pinned
+    };
+    assert!(is_whole(&state));
+    reduce_report(&mut state, Report::Opened(gray(&[".."], 8)));
+    reduce(&mut state, JobCommand::Switch(Switching::Next));
+    assert!(is_whole(&state), "after another photograph was shown");
 }

@@ -53,25 +53,28 @@ fn take_shown(state: &mut State) -> Option<OpenPhotograph> {
         elsewhere: state.elsewhere.take(),
         found_light: state.found_light.take(),
         workspace_path: state.workspace_path.take(),
+        explained_pixel: state.explained_pixel.take(),
+        awaited: std::mem::take(&mut state.awaited),
     })
 }
 
 fn show(state: &mut State, photograph: OpenPhotograph) -> Vec<Effect> {
-    let OpenPhotograph { picture, document, history, newest, pinned, elsewhere, found_light, workspace_path } =
-        photograph;
-    let has_other_size = state.others.last().is_some_and(|other| other.picture.size() != picture.size());
+    let has_other_size =
+        state.others.last().is_some_and(|other| other.picture.size() != photograph.picture.size());
     if has_other_size {
         (state.view.image.center_px, state.view.image.zoom) = (None, None);
     }
     state.leave_photograph();
-    state.picture = Some(picture);
-    state.document = document;
-    state.history = history;
-    state.newest = newest;
-    state.pinned = pinned;
-    state.found_light = found_light;
-    state.elsewhere = elsewhere;
-    state.workspace_path = workspace_path;
+    state.picture = Some(photograph.picture);
+    state.document = photograph.document;
+    state.history = photograph.history;
+    state.newest = photograph.newest;
+    state.pinned = photograph.pinned;
+    state.found_light = photograph.found_light;
+    state.elsewhere = photograph.elsewhere;
+    state.workspace_path = photograph.workspace_path;
+    state.explained_pixel = photograph.explained_pixel;
+    state.awaited = photograph.awaited;
     state.leave_missing_layers();
     analyze(state)
 }

@@ -4,10 +4,11 @@ use super::debugger::take_trace;
 use super::edits::{analyze, edit_params};
 use super::photographs::keep_open;
 use super::questions::take_progress;
+use crate::app::awaited::AfterPin;
 use crate::app::files_to_open::with_unopened;
 use crate::app::photographs::MOST_OTHERS;
 use crate::app::report::{Report, Work};
-use crate::app::state::{AfterPin, Restoring, own_layer};
+use crate::app::state::{Restoring, own_layer};
 use crate::app::{Document, Effect, Preview, Severity, State, ViewSettings, Workspace};
 use crate::params::{IlluminantSetting, Params};
 use crate::view::{
@@ -99,7 +100,10 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
 fn end_panicked(state: &mut State, work: Work, reason: &str) -> Vec<Effect> {
     match work {
         Work::Photograph | Work::File => (state.jobs.reading, state.restoring) = (None, None),
-        Work::Analysis => (state.jobs.analysis, state.after_pin, state.preview) = (None, None, None),
+        Work::Analysis => {
+            (state.jobs.analysis, state.preview) = (None, None);
+            state.give_up_pin();
+        }
         Work::Export => state.jobs.export = None,
         Work::WhatIf => state.what_if_job = None,
         Work::Rescue => {}
@@ -253,7 +257,7 @@ fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: &ElsewhereP
     for warning in warnings {
         state.notify(Severity::Warning, warning);
     }
-    state.preselects = restored.is_none();
+    state.awaited.preselects = restored.is_none();
     if let Some(Restoring { workspace, path }) = restored {
         saved = workspace.elsewhere.except(elsewhere);
         restore_workspace(state, *workspace);
@@ -312,7 +316,7 @@ fn restore_workspace(state: &mut State, workspace: Workspace) {
     state.document.selection.marked = marked;
     if let Some(pinned) = pinned {
         state.document.params = pinned;
-        state.after_pin = Some(AfterPin { params, item, show_pinned });
+        state.awaited.after_pin = Some(AfterPin { params, item, show_pinned });
     } else {
         (state.document.params, state.document.selection.item) = (params, item);
     }
@@ -338,14 +342,15 @@ fn show_result(state: &mut State, shown: Arc<ResultSnapshot>) -> Vec<Effect> {
         }
     }
     follow_region(state, &shown);
-    if is_last && std::mem::take(&mut state.preselects) {
+    if is_last && std::mem::take(&mut state.awaited.preselects) {
         select_largest_region(state, &shown);
     }
-    if is_last && std::mem::take(&mut state.selects_region) && state.document.selection.item.is_none() {
+    if is_last && std::mem::take(&mut state.awaited.selects_region) && state.document.selection.item.is_none()
+    {
         state.document.selection.item = largest_region(&shown);
     }
     state.newest = Some(shown);
-    let Some(after) = state.after_pin.take_if(|_| is_last) else { return Vec::new() };
+    let Some(after) = state.awaited.after_pin.take_if(|_| is_last) else { return Vec::new() };
     state.pinned = state.newest.clone();
     state.view.show_pinned = after.show_pinned;
     (state.document.params, state.document.selection.item) = (after.params, after.item);
