@@ -8,11 +8,13 @@ use crate::describe::Names;
 use crate::raster::RegionId;
 use crate::view::{Comparison, ImageSettings, Item, Layer, RegionChange, compare};
 use egui::{Grid, RichText, ScrollArea, Ui};
+use std::sync::Arc;
 
 /// The comparison panel.
 #[derive(Default)]
 pub struct ComparePanel {
-    comparison: BackgroundValue<(u64, u64), Option<Comparison>>,
+    /// The subject is the address of the photograph and the generation of the pinned result, the version that of the newest.
+    comparison: BackgroundValue<(usize, u64), u64, Option<Comparison>>,
     elsewhere: ElsewhereSection,
 }
 
@@ -29,7 +31,7 @@ impl ComparePanel {
                 ScrollArea::vertical().auto_shrink(false).show(ui, contents);
                 return;
             };
-            let key = (pinned.generation, newest.generation);
+            let key = ((Arc::as_ptr(&newest.picture) as usize, pinned.generation), newest.generation);
             let synchronous = newest.labels().len() <= SYNCHRONOUS_PX;
             // A result whose stages belong to different runs is not compared.
             if newest.stale_from.is_some() {

@@ -32,7 +32,8 @@ impl PartialEq for HeldKey {
 /// The figures that were computed last.
 #[derive(Default)]
 pub struct ElsewhereSection {
-    held: BackgroundValue<HeldKey, Result<Held, String>>,
+    /// The subject is the address of the pictures.
+    held: BackgroundValue<usize, HeldKey, Result<Held, String>>,
 }
 
 impl ElsewhereSection {
@@ -46,14 +47,15 @@ impl ElsewhereSection {
         let Some(shown) = cx.state.shown().filter(|shown| shown.stale_from.is_none()).cloned() else {
             return;
         };
-        let key = HeldKey {
+        let subject = Arc::as_ptr(&elsewhere) as usize;
+        let version = HeldKey {
             elsewhere: Arc::downgrade(&elsewhere),
             shown: Arc::downgrade(&shown),
             is_measured: shown.accuracy().is_some(),
         };
         let synchronous = shown.labels().len() <= SYNCHRONOUS_PX;
         let hold = move || held_against(&elsewhere, &shown).map_err(|error| error.to_string());
-        match self.held.get(ui.ctx(), key, synchronous, hold) {
+        match self.held.get(ui.ctx(), (subject, version), synchronous, hold) {
             None => drop(ui.label(secondary(cx, "comparing\u{2026}"))),
             Some(Err(reason)) => drop(ui.label(RichText::new(reason).color(cx.palette.error))),
             Some(Ok(held)) => {

@@ -21,18 +21,20 @@ use actions::Subject;
 use egui::{Label, RichText, ScrollArea, Ui};
 use std::sync::Arc;
 
-/// Identity of the answers: generation of the trace, pixel, and hypothesis id.
-type WhyKey = (u64, Option<PixelIndex>, Option<HypothesisId>);
+/// Subject of the answers: address of the photograph, pixel, and hypothesis id.
+type WhySubject = (usize, Option<PixelIndex>, Option<HypothesisId>);
 
-/// Identity of the findings about marked pixels: generation of the result, address of the mask, and place of the debugger's cursor,
+/// Version of the findings about the marked pixels: generation of the result, address of the mask, and place of the debugger's cursor,
 /// where that is followed.
-type MarkedKey = (u64, usize, Option<CursorPlace>);
+type MarkedVersion = (u64, usize, Option<CursorPlace>);
 
 /// The inspector, with the answers and findings that were computed last.
 #[derive(Default)]
 pub struct InspectorPanel {
-    show_answers: BackgroundValue<WhyKey, Why>,
-    marked: BackgroundValue<MarkedKey, Option<Inspection>>,
+    /// The version is the generation of the trace.
+    show_answers: BackgroundValue<WhySubject, u64, Why>,
+    /// The subject is the address of the photograph.
+    marked: BackgroundValue<usize, MarkedVersion, Option<Inspection>>,
     owners: CursorOwners,
     /// The findings about the step at the cursor: generation of the trace, number of steps taken, findings.
     step: Option<(u64, usize, Option<Inspection>)>,
@@ -119,7 +121,8 @@ impl InspectorPanel {
     fn inspected_marked(&mut self, ui: &Ui, state: &State) -> Option<Inspection> {
         let (mask, shown) = (state.document.selection.marked.clone()?, state.shown().cloned()?);
         let (place, cursor) = self.owners.get(state).unzip();
-        let key = (shown.generation, Arc::as_ptr(&mask) as usize, place);
+        let version = (shown.generation, Arc::as_ptr(&mask) as usize, place);
+        let key = (Arc::as_ptr(&shown.picture) as usize, version);
         let synchronous = mask.len() <= SYNCHRONOUS_PX;
         let make = move || inspect_marked(&shown, &mask, cursor.as_deref());
         self.marked.get(ui.ctx(), key, synchronous, make).cloned().flatten()
@@ -145,7 +148,7 @@ impl InspectorPanel {
         }
         let (names, generation) = (Arc::clone(&debugger.names), debugger.generation);
         let synchronous = shown.labels().len() <= SYNCHRONOUS_PX;
-        let key = (generation, pixel, hypothesis);
+        let key = ((Arc::as_ptr(&shown.picture) as usize, pixel, hypothesis), generation);
         let compute = move || why(&shown, &trace, &names, pixel, hypothesis);
         if let Some(found) = self.show_answers.get(ui.ctx(), key, synchronous, compute) {
             answers::show(ui, cx, found);

@@ -17,14 +17,17 @@ use std::sync::Arc;
 /// Height of a band's histogram, points.
 const HISTOGRAM_PT: f32 = 36.0;
 
-/// Identity of the statistics: generation of the result, address of the mask of marked pixels, otherwise the item, and place of the
-/// debugger's cursor, where that is followed.
-type StatisticsKey = (u64, Option<usize>, Option<Item>, Option<CursorPlace>);
+/// Subject of the statistics: address of the photograph, and the item, none for the marked pixels.
+type Subject = (usize, Option<Item>);
+
+/// Version of the statistics: generation of the result, address of the mask of marked pixels, and place of the debugger's cursor, where
+/// that is followed.
+type Version = (u64, Option<usize>, Option<CursorPlace>);
 
 /// The selection panel.
 #[derive(Default)]
 pub struct SelectionPanel {
-    statistics: BackgroundValue<StatisticsKey, Option<Statistics>>,
+    statistics: BackgroundValue<Subject, Version, Option<Statistics>>,
     owners: CursorOwners,
     named_marks: NamedMarksList,
 }
@@ -56,7 +59,8 @@ impl SelectionPanel {
         };
         let mask_address = marked.as_ref().map(|mask: &Arc<Mask>| Arc::as_ptr(mask) as usize);
         let (place, cursor) = self.owners.get(state).unzip();
-        let key = (shown.generation, mask_address, item.filter(|_| marked.is_none()), place);
+        let about = (Arc::as_ptr(&shown.picture) as usize, item.filter(|_| marked.is_none()));
+        let key = (about, (shown.generation, mask_address, place));
         let synchronous = shown.labels().len() <= SYNCHRONOUS_PX;
         let make = move || match (marked, item) {
             (Some(mask), _) => statistics(&shown, &mask, cursor.as_deref()),
