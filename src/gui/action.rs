@@ -109,6 +109,25 @@ pub enum Action {
     Help,
 }
 
+impl Action {
+    /// Whether the action opens a field for text.
+    pub const fn asks_for_text(self) -> bool {
+        matches!(
+            self,
+            Self::Open
+                | Self::OpenWorkspace
+                | Self::OpenElsewhere(_)
+                | Self::Export
+                | Self::ExportLayer(..)
+                | Self::ExportPixels(_)
+                | Self::SaveWorkspaceAs
+                | Self::LoadParameters
+                | Self::SaveParameters
+                | Self::Palette
+        )
+    }
+}
+
 /// A step of the image view.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ViewStep {

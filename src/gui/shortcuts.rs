@@ -192,31 +192,49 @@ pub fn pressed(
     let (space_shortcuts, keys): (Vec<&Shortcut>, Vec<&Shortcut>) =
         active.into_iter().partition(|shortcut| shortcut.keys.logical_key == Key::Space);
     let released = space_tap.released(ctx, !space_shortcuts.is_empty());
-    let mut actions = ctx.input_mut(|input| actions_of_physical_digits(&mut input.events, &keys));
-    actions.extend(ctx.input_mut(|input| {
-        let is_pressed = |shortcut: &&&Shortcut| input.consume_shortcut(&shortcut.keys);
-        keys.iter().filter(is_pressed).map(|shortcut| shortcut.action).collect::<Vec<_>>()
-    }));
+    let mut actions = ctx.input_mut(|input| take_actions(&mut input.events, &keys));
     actions.extend(released.map(|direction| Action::Debug(DebugAction::Play(direction))));
     actions
 }
 
-/// Takes the events of digit keys out of `events`, and returns their actions. The place of a key decides, as the key cap may show
-/// something else: the key 6 of a French keyboard is a minus sign, which is another action's key elsewhere.
-fn actions_of_physical_digits(events: &mut Vec<egui::Event>, shortcuts: &[&Shortcut]) -> Vec<Action> {
-    let mut actions = Vec::new();
+/// Takes the events of the keys of `shortcuts` out of `events`, and returns their actions in the order of the events: a key that is pressed
+/// twice within a slow frame counts twice. Keys after one that opens a field for text are meant for the field: they are taken out, too, and
+/// are no actions.
+fn take_actions(events: &mut Vec<egui::Event>, shortcuts: &[&Shortcut]) -> Vec<Action> {
+    let mut actions: Vec<Action> = Vec::new();
     events.retain(|event| {
-        let egui::Event::Key { physical_key: Some(key), pressed: true, modifiers, .. } = event else {
+        let egui::Event::Key { key, physical_key, pressed: true, modifiers, .. } = event else {
             return true;
         };
-        let is_digit = (Key::Num0..=Key::Num9).contains(key) && modifiers.is_none();
-        let shortcut = shortcuts.iter().find(|shortcut| {
-            is_digit && shortcut.keys.logical_key == *key && shortcut.keys.modifiers.is_none()
-        });
+        if actions.last().is_some_and(|action| action.asks_for_text()) {
+            return false;
+        }
+        let of_digit = physical_key.and_then(|key| shortcut_of_digit(key, *modifiers, shortcuts));
+        let of_key = || {
+            let is_pressed = |KeyboardShortcut { modifiers: wanted, logical_key }| {
+                *key == logical_key && modifiers.matches_logically(wanted)
+            };
+            shortcuts.iter().find(|shortcut| is_pressed(shortcut.keys))
+        };
+        let shortcut = of_digit.or_else(of_key);
         actions.extend(shortcut.map(|shortcut| shortcut.action));
         shortcut.is_none()
     });
     actions
+}
+
+/// The shortcut of a digit key. The place of a key decides, as the key cap may show something else: the key 6 of a French keyboard is a
+/// minus sign, which is another action's key elsewhere.
+fn shortcut_of_digit<'a>(
+    key: Key,
+    modifiers: Modifiers,
+    shortcuts: &'a [&'a Shortcut],
+) -> Option<&'a &'a Shortcut> {
+    let is_digit = (Key::Num0..=Key::Num9).contains(&key) && modifiers.is_none();
+    let is_of_key = |shortcut: &&&Shortcut| {
+        is_digit && shortcut.keys.logical_key == key && shortcut.keys.modifiers.is_none()
+    };
+    shortcuts.iter().find(is_of_key)
 }
 
 /// Shows the list of keys in a window of its own, until a person closes the window.

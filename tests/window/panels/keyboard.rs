@@ -1,7 +1,8 @@
 //! Tests of keyboard shortcuts, the help window, and the theme.
 
 use crate::window::{Window, apply, choose, press, says, state, tiny_window, window};
-use dichroscope::app::{Severity, ViewCommand};
+use dichroscope::app::{Edit, Severity, ViewCommand};
+use dichroscope::params::{Parameter, Setting};
 use dichroscope::view::{Theme, Tool};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers};
@@ -201,4 +202,34 @@ fn panels_are_hidden_shown_and_arranged_as_at_first() {
     choose(&mut window, "View", "Arrange as at first");
     assert!(says(&window, "camera noise"));
     assert_eq!(state(&window).view.layout, first);
+}
+
+#[test]
+fn a_key_that_is_pressed_twice_within_a_frame_counts_twice() {
+    let mut window = tiny_window();
+    let defaults = state(&window).document.clone();
+    for value in [3.0, 4.0] {
+        apply(&mut window, Edit::SetParameter(Parameter::CameraNoise, Setting::Value(value), None));
+    }
+    press_within_a_frame(&mut window, &[(Modifiers::COMMAND, Key::Z); 2]);
+    assert_eq!(state(&window).document.params, defaults.params);
+}
+
+#[test]
+fn what_is_typed_ahead_of_a_list_that_opens_is_no_command() {
+    let mut window = tiny_window();
+    let before = state(&window).view.clone();
+    let typed = [(Modifiers::COMMAND, Key::P), (Modifiers::NONE, Key::T), (Modifiers::NONE, Key::Num7)];
+    press_within_a_frame(&mut window, &typed);
+    assert!(is_asked(&window));
+    assert_eq!(state(&window).view, before);
+}
+
+fn press_within_a_frame(window: &mut Window, keys: &[(Modifiers, Key)]) {
+    for &(modifiers, key) in keys {
+        let pressed = Event::Key { key, physical_key: Some(key), pressed: true, repeat: false, modifiers };
+        window.input_mut().events.push(pressed);
+    }
+    window.step();
+    window.run_steps(2);
 }
