@@ -349,6 +349,7 @@ impl Observer for RunObserver<'_> {
             trace: OnceLock::new(),
             accuracy: OnceLock::new(),
             phoenix: OnceLock::new(),
+            reasons: OnceLock::new(),
         })));
         self.must_show = false;
     }

@@ -136,6 +136,7 @@ impl Scene {
             trace: OnceLock::new(),
             accuracy: OnceLock::new(),
             phoenix: OnceLock::new(),
+            reasons: OnceLock::new(),
         };
         Self::of_snapshot(Arc::new(shown), report)
     }

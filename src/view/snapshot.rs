@@ -3,10 +3,12 @@
 use super::{Accuracy, Picture};
 use crate::analysis::{Analysis, Stage};
 use crate::baseline::baseline_regions;
+use crate::intrinsic::Reason;
 use crate::params::{Baseline, Params, Refine};
 use crate::raster::{LabelMap, Mask, Raster, RegionId, UNASSIGNED};
 use crate::segment::AnalysisInput;
 use crate::trace::{Class, NoopRecorder, Trace};
+use rayon::prelude::*;
 use std::cmp::Reverse;
 use std::sync::{Arc, OnceLock};
 
@@ -38,6 +40,8 @@ pub struct ResultSnapshot {
     pub(crate) accuracy: OnceLock<Option<Accuracy>>,
     /// The regions that Phoenix finds in the photograph, once asked for.
     pub(crate) phoenix: OnceLock<LabelMap>,
+    /// The reasons that pixels have, once asked for.
+    pub(crate) reasons: OnceLock<Vec<Reason>>,
 }
 
 impl ResultSnapshot {
@@ -62,6 +66,7 @@ impl ResultSnapshot {
             trace: OnceLock::new(),
             accuracy: OnceLock::new(),
             phoenix: OnceLock::new(),
+            reasons: OnceLock::new(),
         }
     }
 
@@ -119,6 +124,22 @@ impl ResultSnapshot {
             let baseline = Baseline::Phoenix(self.params.phoenix);
             let found = baseline_regions(&input, &baseline, &mut NoopRecorder).labels;
             if found.len() == finals.labels.len() { found } else { working.blocks.enlarged(&found) }
+        })
+    }
+
+    /// The reasons why pixels of the photograph are not explained, each once, in the order of [`Reason::ALL`]. The first call looks at all pixels.
+    pub fn reasons(&self) -> &[Reason] {
+        self.reasons.get_or_init(|| {
+            let found = self.analysis.intrinsic.reasons.as_slice().par_iter().fold(
+                || [false; Reason::ALL.len()],
+                |mut found, &reason| {
+                    found[reason as usize] = true;
+                    found
+                },
+            );
+            let found = found.reduce(Default::default, |a, b| std::array::from_fn(|i| a[i] || b[i]));
+            let others = Reason::ALL.into_iter().zip(found).skip(1);
+            others.filter(|(_, is_found)| *is_found).map(|(reason, _)| reason).collect()
         })
     }
 

@@ -130,6 +130,7 @@ fn snapshot(picture: &Arc<Picture>, params: &Params, analysis: Analysis) -> Resu
         trace: OnceLock::new(),
         accuracy: OnceLock::new(),
         phoenix: OnceLock::new(),
+        reasons: OnceLock::new(),
     }
 }
 

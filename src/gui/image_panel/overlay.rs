@@ -8,7 +8,7 @@ use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::gui::widgets;
 use crate::raster::PixelIndex;
 use crate::view::{
-    ACCENT, DIFFERENCE_COUNTS, Item, Layer, LayerPixels, LegendEntry, ProfileLine, Tool, legend,
+    ACCENT, DIFFERENCE_COUNTS, Item, Layer, LayerPixels, LegendEntry, ProfileLine, Tool, legend, reason_entry,
 };
 use egui::{Align2, Color32, FontId, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
 
@@ -308,6 +308,11 @@ pub fn layer_legend(painter: &Painter, palette: &ThemeColors, view: Rect, layer:
             color_bar(painter, palette, view, &[&low, "0", &format!("{high} counts")]);
         }
         (Layer::Confidence, _) => color_bar(painter, palette, view, &["0 not at all", "fully 1"]),
+        (Layer::Reasons, Some(_)) => {
+            let found = state.shown().map_or(&[][..], |shown| shown.reasons());
+            let entries: Vec<LegendEntry> = found.iter().copied().filter_map(reason_entry).collect();
+            legend_box(painter, palette, view, &entries);
+        }
         _ => legend_box(painter, palette, view, &legend(layer)),
     }
 }
@@ -348,22 +353,30 @@ fn color_bar(painter: &Painter, palette: &ThemeColors, view: Rect, texts: &[&str
     }
 }
 
-/// Paints a legend of colors and names along the lower edge, in as many lines as needed.
+/// Paints a legend of colors and names along the lower edge, in as many lines as needed and as leave room for the layer's name above;
+/// what does not fit is counted in the last line.
 pub fn legend_box(painter: &Painter, palette: &ThemeColors, view: Rect, entries: &[LegendEntry]) {
     const LINE_PT: f32 = 18.0;
-    let font = FontId::proportional(SMALL_PT);
+    const NAME_PT: f32 = 28.0;
+    let layout = |text: String| painter.layout_no_wrap(text, FontId::proportional(SMALL_PT), palette.text);
     let most = view.width() - 12.0;
     let mut lines: Vec<(f32, Vec<_>)> = Vec::new();
     for entry in entries {
-        let galley = painter.layout_no_wrap(entry.name.to_owned(), font.clone(), palette.text);
+        let galley = layout(entry.name.to_owned());
         let step = galley.size().x + 24.0;
         match lines.last_mut() {
             Some((width, line)) if *width + step <= most => {
                 *width += step;
-                line.push((entry, galley));
+                line.push((Some(entry.color), galley));
             }
-            _ => lines.push((step + 2.0, vec![(entry, galley)])),
+            _ => lines.push((step + 2.0, vec![(Some(entry.color), galley)])),
         }
+    }
+    let most_lines = (((view.height() - NAME_PT - 6.0) / LINE_PT) as usize).max(1);
+    if lines.len() > most_lines {
+        let left_out: usize = lines.drain(most_lines - 1..).map(|(_, line)| line.len()).sum();
+        let galley = layout(format!("{left_out} more"));
+        lines.push((galley.size().x + 12.0, vec![(None, galley)]));
     }
     let top = view.bottom() - 6.0 - LINE_PT * lines.len() as f32;
     for (index, (width, line)) in lines.into_iter().enumerate() {
@@ -371,11 +384,13 @@ pub fn legend_box(painter: &Painter, palette: &ThemeColors, view: Rect, entries:
         let area = Rect::from_min_size(corner, vec2(width, LINE_PT));
         painter.rect_filled(area, 3.0, palette.panel.gamma_multiply(0.86));
         let mut x = area.left() + 6.0;
-        for (entry, galley) in line {
-            let chip = Rect::from_center_size(pos2(x + 4.5, area.center().y), vec2(9.0, 9.0));
-            painter.rect_filled(chip, 2.0, crate::gui::widgets::color(entry.color));
-            let (text, step) =
-                (pos2(x + 13.0, area.center().y - galley.size().y / 2.0), galley.size().x + 24.0);
+        for (color, galley) in line {
+            if let Some(color) = color {
+                let chip = Rect::from_center_size(pos2(x + 4.5, area.center().y), vec2(9.0, 9.0));
+                painter.rect_filled(chip, 2.0, crate::gui::widgets::color(color));
+                x += 13.0;
+            }
+            let (text, step) = (pos2(x, area.center().y - galley.size().y / 2.0), galley.size().x + 11.0);
             painter.galley(text, galley, palette.text);
             x += step;
         }
