@@ -129,6 +129,9 @@ impl RegionsPanel {
         let order = self.order(&shown.analysis.intrinsic.regions);
         let mut hovered = None;
         let ui_width = ui.available_width();
+        let regions = &shown.analysis.intrinsic.regions;
+        let pixels_pt = count_width(ui, regions.iter().map(|region| region.pixels));
+        let highlight_pt = count_width(ui, regions.iter().map(|region| region.highlight_pixels));
         // The cells take no keyboard focus: each would be a stop of Tab. The keys [ and ] select regions.
         let mut table = TableBuilder::new(ui).striped(false).sense(Sense::CLICK).resizable(false);
         let shows_numbers = |key: SortKey| ui_width >= width_with_numbers_of(key);
@@ -136,6 +139,8 @@ impl RegionsPanel {
             let last = key == SortKey::Warnings;
             let width = match key {
                 SortKey::Body | SortKey::Surface if !shows_numbers(key) => CHIP_COLUMN_PT,
+                SortKey::Pixels => width.max(pixels_pt),
+                SortKey::Highlight => width.max(highlight_pt),
                 SortKey::Warnings if !shows_numbers(SortKey::Body) => NARROW_NOTES_PT,
                 SortKey::Warnings if !shows_numbers(SortKey::Surface) => 110.0,
                 _ => width,
@@ -212,6 +217,13 @@ impl RegionsPanel {
         });
         order
     }
+}
+
+/// Width of a column in which none of these numbers is cut, points.
+fn count_width(ui: &Ui, counts: impl Iterator<Item = usize>) -> f32 {
+    let font = egui::TextStyle::Body.resolve(ui.style());
+    let text = crate::view::grouped(counts.max().unwrap_or(0));
+    ui.painter().layout_no_wrap(text, font, egui::Color32::WHITE).size().x.ceil()
 }
 
 /// Hue of a color, radians: the angle around the gray diagonal, by which colors are sorted.

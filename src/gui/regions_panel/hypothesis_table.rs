@@ -76,8 +76,10 @@ impl HypothesisTable {
         let focus = cx.state.debugger.focus();
         let order = self.order(rows);
         let mut hovered = None;
+        let pixels_pt = super::count_width(ui, rows.iter().map(|row| row.pixels as usize));
         let mut table = TableBuilder::new(ui).striped(false).sense(Sense::CLICK).resizable(false);
         for (key, _, width, _) in COLUMNS {
+            let width = if key == SortKey::Pixels { width.max(pixels_pt) } else { width };
             let last = key == SortKey::Becomes;
             // A column that is not clipped never gets narrower than its contents were, and these fill it.
             table = table.column(if last {

@@ -66,19 +66,21 @@ fn of_region(replay: &Replay, names: &RegionNames, region: RegionId) -> Inspecti
     if of_region.is_empty() {
         return finding(subject, "Not begun", Tone::Neutral, "5.3");
     }
-    let pixels: usize = of_region.iter().map(|row| row.pixels as usize).sum();
-    let parts = of_region.iter().map(|row| {
-        format!(
-            "hypothesis {} {}, {}",
-            row.hypothesis,
-            row.status.text(),
-            counted(row.pixels as usize, "pixel")
-        )
-    });
+    let pixels: u32 = of_region.iter().map(|row| row.pixels).sum();
+    let counted = |pixels: u32| working_pixels(pixels, replay.trace().pixel_blocks().side());
+    let parts = of_region
+        .iter()
+        .map(|row| format!("hypothesis {} {}, {}", row.hypothesis, row.status.text(), counted(row.pixels)));
     Inspection {
         sentence: parts.collect::<Vec<_>>().join("; "),
-        ..finding(subject, &format!("{} so far", counted(pixels, "pixel")), Tone::Neutral, "5.3")
+        ..finding(subject, &format!("{} so far", counted(pixels)), Tone::Neutral, "5.3")
     }
+}
+
+/// A number of working pixels in words; `side`: side of a working pixel, pixels of the photograph.
+fn working_pixels(pixels: u32, side: usize) -> String {
+    let counted = counted(pixels as usize, "pixel");
+    if side > 1 { format!("{counted} of {side} \u{d7} {side}") } else { counted }
 }
 
 fn of_window(replay: &Replay, window: u32) -> Inspection {
