@@ -6,6 +6,7 @@
 //! region, but no object consists of highlight alone); and a clipped blob that is mostly surrounded by other regions, which the
 //! region reached over a bridge of bright pixels.
 
+use super::images::Images;
 use crate::raster::{Border, ComponentSearch, Connectivity, LabelMap, Mask, Raster, RegionId};
 use crate::segment::{AnalysisInput, FinalRegions, Members, parts};
 use crate::trace::PixelKind;
@@ -14,21 +15,24 @@ use crate::trace::PixelKind;
 const LEAST_MATTE: f64 = 0.1;
 /// Least share of a clipped blob's own region in the assigned pixels around the blob.
 const LEAST_OWN: f64 = 0.5;
+/// Least band of a body reflection that is nearly white, as a share of the clip threshold.
+const LEAST_WHITE: f32 = 0.6;
 /// Least share of clipped and bloomed pixels in a highlight that is tested for matte pixels around.
 const LEAST_DISTORTED: f64 = 0.2;
 /// Least share of matte pixels of its own region in the lit pixels around a highlight.
 const LEAST_OWN_MATTE: f64 = 0.4;
 
 /// The pixels that the skewed T of their region explains. `model_fits`: whether the skewed T
-/// fits each region, by [`RegionId::index`]. Parts and blobs are not looked at where a person marked the area: a person has said that
+/// fits each region, by [`RegionId::index`]. `images`: the split by the planes. Parts and blobs are not looked at where a person marked the area: a person has said that
 /// all of it is one object.
 pub fn explained_mask(
     input: &AnalysisInput,
     regions: &FinalRegions,
     members: &Members,
     model_fits: &[bool],
-    kinds: &Raster<PixelKind>,
+    images: &Images,
 ) -> Mask {
+    let kinds = &images.kinds;
     let mut mask =
         regions.labels.map(|&label| RegionId::from_label(label).is_some_and(|id| model_fits[id.index()]));
     if !input.refine.region_holds || input.is_marked() {
@@ -46,6 +50,7 @@ pub fn explained_mask(
         }
     }
     remove_blobs_of_other_objects(input, regions, &mut mask);
+    remove_overexposed_bodies(input, &regions.labels, images, &mut mask);
     remove_highlights_without_body(input, &regions.labels, kinds, &mut mask);
     mask
 }
@@ -60,6 +65,36 @@ fn remove_blobs_of_other_objects(input: &AnalysisInput, regions: &FinalRegions, 
         let Some(blob) = search.component_at(start, member) else { continue };
         let border = Border::of(labels, blob, |pixel| !input.masks.distorted(pixel));
         if (border.sides(label) as f64) < LEAST_OWN * border.assigned_sides() as f64 {
+            for &pixel in blob {
+                mask[pixel] = false;
+            }
+        }
+    }
+}
+
+/// Removes the blobs that mostly clip in every band and around which the body reflection of the region is nearly white: there the body itself
+/// may be overexposed, and nothing tells of a highlight.
+fn remove_overexposed_bodies(input: &AnalysisInput, labels: &LabelMap, images: &Images, mask: &mut Mask) {
+    let least_band = LEAST_WHITE * input.used.clip_threshold as f32;
+    let is_white = |pixel: usize| images.body[pixel].iter().all(|band| *band >= least_band);
+    let mut search = ComponentSearch::new(labels.width(), labels.height(), Connectivity::Four);
+    for start in 0..labels.len() {
+        let label = labels[start];
+        let member = |pixel: usize| mask[pixel] && labels[pixel] == label && input.masks.distorted(pixel);
+        let Some(blob) = search.component_at(start, member) else { continue };
+        let lost = blob.iter().filter(|&&pixel| images.kinds[pixel] == PixelKind::Lost).count();
+        if 2 * lost < blob.len() {
+            continue;
+        }
+        let (mut own, mut white) = (0usize, 0usize);
+        for &pixel in blob {
+            labels.for_each_neighbor(pixel, |near| {
+                let is_own = labels[near] == label && !input.masks.distorted(near);
+                own += usize::from(is_own);
+                white += usize::from(is_own && is_white(near));
+            });
+        }
+        if own > 0 && 2 * white >= own {
             for &pixel in blob {
                 mask[pixel] = false;
             }
@@ -132,6 +167,27 @@ mod tests {
         remove_highlights_without_body(&drawing.input(), &labels, &kinds, &mut mask);
         let letter = |&is_explained: &bool| if is_explained { 'x' } else { '.' };
         mask.as_slice().chunks(rows[0].len()).map(|row| row.iter().map(letter).collect()).collect()
+    }
+
+    #[test]
+    fn an_overexposed_white_body_is_no_highlight_and_the_core_of_a_highlight_is() {
+        let kept = |body: [f32; 3]| {
+            let rows = ["aaaaa", "aawaa", "aaaaa"];
+            let drawing = Drawing::new(&rows, |c| Vec3::repeat(if c == 'w' { 255.0 } else { 200.0 }));
+            let mut images = Images {
+                body: Raster::filled(5, 3, body),
+                surface: Raster::filled(5, 3, [0.0; 3]),
+                noise: Raster::filled(5, 3, 0.0),
+                kinds: Raster::filled(5, 3, PixelKind::Highlight),
+            };
+            images.kinds[7] = PixelKind::Lost;
+            let mut mask = Mask::filled(5, 3, true);
+            remove_overexposed_bodies(&drawing.input(), &LabelMap::filled(5, 3, 1), &images, &mut mask);
+            mask[7]
+        };
+        assert!(!kept([190.0, 180.0, 170.0]), "a white body");
+        assert!(kept([80.0, 70.0, 60.0]), "a highlight on a gray body");
+        assert!(kept([190.0, 60.0, 50.0]), "a highlight on a red body");
     }
 
     #[test]

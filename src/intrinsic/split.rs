@@ -168,7 +168,7 @@ fn split_from<R: Recorder>(
         recorder.record(limited);
     }
     let model_fits: Vec<bool> = plans.iter().map(RegionPlan::model_fits).collect();
-    found.explained_mask = explained_mask(input, regions, members, &model_fits, &images.kinds);
+    found.explained_mask = explained_mask(input, regions, members, &model_fits, &images);
     remove_far_colors(input, &regions.labels, plans, &mut found.explained_mask);
     let explained_mask = &found.explained_mask;
     let hue_restored = HueRestored::new(input, origin, &regions.light, lamps.as_ref());
