@@ -196,7 +196,9 @@ impl Distorted<'_> {
 fn relax(values: &mut Raster<f32>, is_border: &Mask, places: &mut [usize]) {
     places.sort_unstable();
     let mut is_inside = is_border.map(|_| false);
-    places.iter().for_each(|&place| is_inside[place] = true);
+    for &place in places.iter() {
+        is_inside[place] = true;
+    }
     let across = (places.len() as f32).sqrt() + 2.0;
     let relaxation = 2.0 / (1.0 + std::f32::consts::PI / across);
     let sweeps = (3.0 * across) as usize + 20;

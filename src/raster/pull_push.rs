@@ -57,7 +57,7 @@ fn between(coarse: &Raster<f32>, x: usize, y: usize) -> f32 {
     // The middle of a block lies between its two columns: each is a quarter of a block away, and three quarters from the next block.
     let nearest = |at: usize, count: usize| {
         let own = at / 2;
-        let next = if at % 2 == 0 { own.saturating_sub(1) } else { (own + 1).min(count - 1) };
+        let next = if at.is_multiple_of(2) { own.saturating_sub(1) } else { (own + 1).min(count - 1) };
         [(own, 0.75), (next, 0.25)]
     };
     let mut sum = 0.0;
