@@ -11,7 +11,8 @@
 //!
 //! Then, for the embedded sample and for a tiling of it, what one movement of a slider costs: a session that holds the
 //! result of the default parameters runs again after one parameter or switch has changed. Best and median of several runs,
-//! and the best as a multiple of (b). For the largest tiling, the stages of a first run, and what one movement of a slider costs
+//! and the best as a multiple of (b). For the largest tiling, the stages of a first run, also with the bands exchanged from cell to cell, so that
+//! most pixels are split locally, and what one movement of a slider costs
 //! until the result for the working picture is there, which the window shows at once, and until all of it is there.
 //!
 //! Last, the cost of recording every decision: time of a recorded run as a multiple of an unrecorded one, bytes per
@@ -79,7 +80,8 @@ fn main() {
     let runs = runs.min(7);
     sliders(1, runs);
     sliders(2, runs);
-    stages(7, runs.min(3));
+    stages("plain", &sample(7), runs.min(3));
+    stages("checks", &checks(7), runs.min(3));
     previews(7, runs);
     println!(
         "\n{:>10}  {:>9}  {:>7}  {:>8}  {:>9}  {:>9}",
@@ -119,6 +121,20 @@ fn sample(tiles: usize) -> Arc<LinearImage> {
     }
     let pixels = Raster::from_vec(one.width() * tiles, one.height() * tiles, pixels);
     Arc::new(LinearImage::new(pixels.expect("invariant: the tiles fill it"), one.saturation))
+}
+
+/// The sample scene, repeated like [`sample`], with the bands exchanged from cell to cell: as in a photograph of prints, leaves and text, the model fits
+/// hardly any region, and most pixels are split locally.
+fn checks(tiles: usize) -> Arc<LinearImage> {
+    const CELL_PX: [usize; 2] = [45, 35];
+    let plain = sample(tiles);
+    let width = plain.width();
+    let exchanged = plain.pixels.as_slice().iter().enumerate().map(|(pixel, &color)| {
+        let cell = pixel % width / CELL_PX[0] + 5 * (pixel / width / CELL_PX[1]);
+        std::array::from_fn(|band| color[(band + cell) % 3])
+    });
+    let pixels = Raster::from_vec(width, plain.height(), exchanged.collect());
+    Arc::new(LinearImage::new(pixels.expect("invariant: as many pixels"), plain.saturation))
 }
 
 /// For each parameter and switch: its name, and the default parameters with a slightly changed value of it.
@@ -180,11 +196,13 @@ impl Observer for StageTimes {
     }
 }
 
-fn stages(tiles: usize, runs: usize) {
-    let image = sample(tiles);
+fn stages(name: &str, image: &Arc<LinearImage>, runs: usize) {
     let mut times = StageTimes::default();
     let whole = best_of(runs, || Session::new(image.clone()).run(&Params::default(), &mut times));
-    println!("\n{:>7.2} MP  {:>19}  {}", image.pixels.len() as f64 / 1e6, "analysis", milliseconds(whole));
+    let floor = best_of(runs, || window_moments(&image.pixels));
+    let ratio = whole.as_secs_f64() / floor.as_secs_f64();
+    let megapixels = image.pixels.len() as f64 / 1e6;
+    println!("\n{megapixels:>7.2} MP  {:>19}  {}  {ratio:>6.1}\u{d7}", name, milliseconds(whole));
     for stage in Stage::ALL {
         println!("{:>31}  {}", stage.name(), milliseconds(times.best[stage as usize].unwrap_or_default()));
     }

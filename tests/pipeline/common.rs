@@ -100,16 +100,24 @@ pub fn scores_of(truth: &GroundTruth, image: &LinearImage, analysis: &Analysis, 
     score(truth, &image.pixels, &outcome).unwrap()
 }
 
-/// Whether body and surface reflection of a pixel are its color; a clipped band that was restored has more light than the file keeps.
+/// Whether body and surface reflection of a pixel are its color. A clipped band that was restored has more light than the file keeps; under
+/// surface reflection the body may be turned by a small angle (`chromaticity_prior`), and the rest is in the residual.
 fn is_whole(intrinsic: &Intrinsic, pixel: usize, color: [f32; 3], is_clipped: bool) -> bool {
+    let (body, surface) = (intrinsic.body[pixel], intrinsic.surface[pixel]);
+    let is_turned = surface.iter().any(|band| *band > 0.0);
+    let rest: f32 = (0..3).map(|band| (color[band] - surface[band]).powi(2)).sum::<f32>().sqrt();
     (0..3).all(|band| {
-        let (body, input) = (intrinsic.body[pixel][band], color[band]);
-        let more = body + intrinsic.surface[pixel][band] - input;
+        let (body, input) = (body[band], color[band]);
+        let more = body + surface[band] - input;
         // Ambient light is subtracted and added again, which rounds.
         let rounding = 1e-5 * input.max(1.0);
-        (more.abs() <= rounding || (more > 0.0 && is_clipped)) && body <= input + rounding
+        let limit = if is_turned { rounding + LARGEST_TURN * rest } else { rounding };
+        (more.abs() <= limit || (more > 0.0 && is_clipped)) && body <= input + rounding
     })
 }
+
+/// Largest change of a band of body reflection under surface reflection, as a share of the length of body reflection.
+const LARGEST_TURN: f32 = 0.5;
 
 /// Checks the invariants of every result: labels, report and pictures agree, and no number is NaN or infinite.
 ///
