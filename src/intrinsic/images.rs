@@ -125,7 +125,12 @@ fn restored(
 ) -> Vec<RestoredPixel> {
     let waiting: Vec<u32> = pixels.iter().filter(|&pixel| input.masks.distorted(pixel as usize)).collect();
     let rule = &plan.splitter.rule;
-    let priors = distorted.priors(&waiting, |color| rule.amounts(color).components.body);
+    let is_needed = input.refine.restore_prior && rule.transform().is_some();
+    let priors = if is_needed {
+        distorted.priors(&waiting, |color| rule.amounts(color).components.body)
+    } else {
+        vec![f32::NAN; waiting.len()]
+    };
     waiting
         .into_iter()
         .zip(priors)

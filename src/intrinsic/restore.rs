@@ -18,7 +18,7 @@ use crate::reflection::{Components, HighlightTest, ReflectionTransform};
 /// Relative standard deviation of the prior for body reflection.
 const PRIOR_SD: f32 = 0.1;
 /// Largest number of updates of all values of a blob by which the interpolation is made harmonic.
-const MOST_UPDATES: usize = 10_000_000;
+const MOST_UPDATES: usize = 1_000_000;
 
 /// The picture whose distorted pixels are restored.
 pub struct Distorted<'a> {
