@@ -145,12 +145,7 @@ impl RegionsPanel {
                 SortKey::Warnings if !shows_numbers(SortKey::Surface) => 110.0,
                 _ => width,
             };
-            // A column that is not clipped never gets narrower than its contents were, and these fill it.
-            table = table.column(if last {
-                Column::remainder().at_least(width).clip(true)
-            } else {
-                Column::exact(width)
-            });
+            table = table.column(column(width, last));
         }
         if let Some(row) = selected.and_then(|id| order.iter().position(|&index| index == id.index())) {
             table = table.scroll_to_row(row, None);
@@ -217,6 +212,12 @@ impl RegionsPanel {
         });
         order
     }
+}
+
+/// A column of a table, at least `width` points wide; the last one takes the rest of the panel.
+fn column(width: f32, last: bool) -> Column {
+    // A column that is not clipped never gets narrower than its contents were, and these fill it.
+    if last { Column::remainder().at_least(width).clip(true) } else { Column::exact(width) }
 }
 
 /// Width of a column in which none of these numbers is cut, points.

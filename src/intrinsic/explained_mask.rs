@@ -3,8 +3,10 @@
 //!
 //! Not explained are the pixels of a region whose skewed T does not fit (see [`crate::segment::RegionFit`]); a separate part of a
 //! region with hardly any matte pixel (clipped highlights of a white cup fit the plane of a teal jug, 21.8 → 34.4 dB on the jug's
-//! region, but no object consists of highlight alone); and a clipped blob that is mostly surrounded by other regions, which the
-//! region reached over a bridge of bright pixels.
+//! region, but no object consists of highlight alone); a clipped blob that is mostly surrounded by other regions, which the
+//! region reached over a bridge of bright pixels; a blob that mostly clips in every band where the body reflection around it is nearly white,
+//! as on the back of a white dog in the sun, which became gray; and a clipped highlight with hardly any matte pixels of its region around,
+//! which the region reached by brightness alone (section 5.5): behind a red mast a white sky became black and red.
 
 use super::images::Images;
 use crate::raster::{Border, ComponentSearch, Connectivity, LabelMap, Mask, Raster, RegionId};
@@ -49,93 +51,92 @@ pub fn explained_mask(
             }
         }
     }
-    remove_blobs_of_other_objects(input, regions, &mut mask);
-    remove_overexposed_bodies(input, &regions.labels, images, &mut mask);
-    remove_highlights_without_body(input, &regions.labels, kinds, &mut mask);
+    let labels = &regions.labels;
+    remove_components(
+        labels,
+        &mut mask,
+        |pixel| input.masks.distorted(pixel),
+        |_, blob| {
+            is_of_another_object(input, labels, blob) || is_overexposed_body(input, labels, images, blob)
+        },
+    );
+    let is_bright = |pixel: usize| input.masks.distorted(pixel) || kinds[pixel] == PixelKind::Highlight;
+    remove_components(labels, &mut mask, is_bright, |explained, highlight| {
+        lacks_body(input, labels, kinds, explained, highlight)
+    });
     mask
 }
 
-/// Removes the clipped blobs that are mostly surrounded by other regions than their own.
-fn remove_blobs_of_other_objects(input: &AnalysisInput, regions: &FinalRegions, mask: &mut Mask) {
-    let labels = &regions.labels;
+/// Removes from `mask` the components of its pixels of one region for which `is_wrong`, given the mask and the component, is true. A component
+/// consists of pixels for which `belongs` is true.
+fn remove_components(
+    labels: &LabelMap,
+    mask: &mut Mask,
+    belongs: impl Fn(usize) -> bool,
+    is_wrong: impl Fn(&Mask, &[usize]) -> bool,
+) {
     let mut search = ComponentSearch::new(labels.width(), labels.height(), Connectivity::Four);
     for start in 0..labels.len() {
-        let label = labels[start];
-        let member = |pixel: usize| mask[pixel] && labels[pixel] == label && input.masks.distorted(pixel);
-        let Some(blob) = search.component_at(start, member) else { continue };
-        let border = Border::of(labels, blob, |pixel| !input.masks.distorted(pixel));
-        if (border.sides(label) as f64) < LEAST_OWN * border.assigned_sides() as f64 {
-            for &pixel in blob {
-                mask[pixel] = false;
-            }
+        let member = |pixel: usize| mask[pixel] && labels[pixel] == labels[start] && belongs(pixel);
+        let found = search.component_at(start, member).filter(|component| is_wrong(mask, component));
+        for &pixel in found.into_iter().flatten() {
+            mask[pixel] = false;
         }
     }
 }
 
-/// Removes the blobs that mostly clip in every band and around which the body reflection of the region is nearly white: there the body itself
-/// may be overexposed, and nothing tells of a highlight.
-fn remove_overexposed_bodies(input: &AnalysisInput, labels: &LabelMap, images: &Images, mask: &mut Mask) {
+/// Whether a clipped blob is mostly surrounded by other regions than its own.
+fn is_of_another_object(input: &AnalysisInput, labels: &LabelMap, blob: &[usize]) -> bool {
+    let border = Border::of(labels, blob, |pixel| !input.masks.distorted(pixel));
+    let own = blob.first().map_or(0, |&pixel| border.sides(labels[pixel]));
+    (own as f64) < LEAST_OWN * border.assigned_sides() as f64
+}
+
+/// Whether a blob mostly clips in every band, and the body reflection of its region around it is nearly white: there the body itself may be
+/// overexposed, and nothing tells of a highlight.
+fn is_overexposed_body(input: &AnalysisInput, labels: &LabelMap, images: &Images, blob: &[usize]) -> bool {
+    let lost = blob.iter().filter(|&&pixel| images.kinds[pixel] == PixelKind::Lost).count();
+    if 2 * lost < blob.len() {
+        return false;
+    }
     let least_band = LEAST_WHITE * input.used.clip_threshold as f32;
     let is_white = |pixel: usize| images.body[pixel].iter().all(|band| *band >= least_band);
-    let mut search = ComponentSearch::new(labels.width(), labels.height(), Connectivity::Four);
-    for start in 0..labels.len() {
-        let label = labels[start];
-        let member = |pixel: usize| mask[pixel] && labels[pixel] == label && input.masks.distorted(pixel);
-        let Some(blob) = search.component_at(start, member) else { continue };
-        let lost = blob.iter().filter(|&&pixel| images.kinds[pixel] == PixelKind::Lost).count();
-        if 2 * lost < blob.len() {
-            continue;
-        }
-        let (mut own, mut white) = (0usize, 0usize);
-        for &pixel in blob {
-            labels.for_each_neighbor(pixel, |near| {
-                let is_own = labels[near] == label && !input.masks.distorted(near);
-                own += usize::from(is_own);
-                white += usize::from(is_own && is_white(near));
-            });
-        }
-        if own > 0 && 2 * white >= own {
-            for &pixel in blob {
-                mask[pixel] = false;
-            }
-        }
+    let (mut own, mut white) = (0usize, 0usize);
+    for &pixel in blob {
+        labels.for_each_neighbor(pixel, |near| {
+            let is_own = labels[near] == labels[pixel] && !input.masks.distorted(near);
+            own += usize::from(is_own);
+            white += usize::from(is_own && is_white(near));
+        });
     }
+    own > 0 && 2 * white >= own
 }
 
-/// Removes the clipped highlights that mostly border on other things than matte pixels of their own region: a white sky, whose color is
+/// Whether a clipped highlight mostly borders on other things than matte pixels of its own region that are `explained`: a white sky, whose color is
 /// that of the light, is no highlight of the red mast in front of it.
-fn remove_highlights_without_body(
+fn lacks_body(
     input: &AnalysisInput,
     labels: &LabelMap,
     kinds: &Raster<PixelKind>,
-    mask: &mut Mask,
-) {
-    let is_bright = |pixel: usize| input.masks.distorted(pixel) || kinds[pixel] == PixelKind::Highlight;
-    let mut search = ComponentSearch::new(labels.width(), labels.height(), Connectivity::Four);
-    for start in 0..labels.len() {
-        let label = labels[start];
-        let member = |pixel: usize| mask[pixel] && labels[pixel] == label && is_bright(pixel);
-        let Some(highlight) = search.component_at(start, member) else { continue };
-        let distorted = highlight.iter().filter(|&&pixel| input.masks.distorted(pixel)).count();
-        if (distorted as f64) < LEAST_DISTORTED * highlight.len() as f64 {
-            continue;
-        }
-        let (mut own, mut others) = (0usize, 0usize);
-        for &pixel in highlight {
-            labels.for_each_neighbor(pixel, |near| {
-                if !member(near) && !input.masks.dark(near) {
-                    let is_matte = mask[near] && labels[near] == label;
-                    own += usize::from(is_matte);
-                    others += usize::from(!is_matte);
-                }
-            });
-        }
-        if (own as f64) < LEAST_OWN_MATTE * (own + others) as f64 {
-            for &pixel in highlight {
-                mask[pixel] = false;
-            }
-        }
+    explained: &Mask,
+    highlight: &[usize],
+) -> bool {
+    let distorted = highlight.iter().filter(|&&pixel| input.masks.distorted(pixel)).count();
+    if (distorted as f64) < LEAST_DISTORTED * highlight.len() as f64 {
+        return false;
     }
+    let (mut own, mut others) = (0usize, 0usize);
+    for &pixel in highlight {
+        labels.for_each_neighbor(pixel, |near| {
+            let is_own = explained[near] && labels[near] == labels[pixel];
+            let is_bright = input.masks.distorted(near) || kinds[near] == PixelKind::Highlight;
+            if !(is_own && is_bright) && !input.masks.dark(near) {
+                own += usize::from(is_own);
+                others += usize::from(!is_own);
+            }
+        });
+    }
+    (own as f64) < LEAST_OWN_MATTE * (own + others) as f64
 }
 
 #[cfg(test)]
@@ -164,7 +165,11 @@ mod tests {
         let labels = mask.map(|&is_member| u16::from(is_member));
         let is_highlight = raster(&|letter| letter == b'h');
         let kinds = is_highlight.map(|&is| if is { PixelKind::Highlight } else { PixelKind::Matte });
-        remove_highlights_without_body(&drawing.input(), &labels, &kinds, &mut mask);
+        let input = drawing.input();
+        let is_bright = |pixel: usize| input.masks.distorted(pixel) || is_highlight[pixel];
+        remove_components(&labels, &mut mask, is_bright, |explained, highlight| {
+            lacks_body(&input, &labels, &kinds, explained, highlight)
+        });
         let letter = |&is_explained: &bool| if is_explained { 'x' } else { '.' };
         mask.as_slice().chunks(rows[0].len()).map(|row| row.iter().map(letter).collect()).collect()
     }
@@ -181,9 +186,7 @@ mod tests {
                 kinds: Raster::filled(5, 3, PixelKind::Highlight),
             };
             images.kinds[7] = PixelKind::Lost;
-            let mut mask = Mask::filled(5, 3, true);
-            remove_overexposed_bodies(&drawing.input(), &LabelMap::filled(5, 3, 1), &images, &mut mask);
-            mask[7]
+            !is_overexposed_body(&drawing.input(), &LabelMap::filled(5, 3, 1), &images, &[7])
         };
         assert!(!kept([190.0, 180.0, 170.0]), "a white body");
         assert!(kept([80.0, 70.0, 60.0]), "a highlight on a gray body");

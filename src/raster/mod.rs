@@ -10,6 +10,7 @@ mod grid;
 mod ids;
 mod morphology;
 mod pull_push;
+mod relaxation;
 mod roi;
 
 pub use blocks::Blocks;
@@ -20,4 +21,5 @@ pub use grid::{LabelMap, Mask, Raster, UNASSIGNED};
 pub use ids::{HypothesisId, PixelIndex, RegionId};
 pub(crate) use morphology::{dilate, erode};
 pub(crate) use pull_push::pull_push;
+pub(crate) use relaxation::relax;
 pub(crate) use roi::Roi;

@@ -48,6 +48,18 @@ impl Roi {
         Self { left, top, width: right - left, height: bottom - top, picture_width: width }
     }
 
+    /// The smallest rectangle that contains `pixels`, extended like [`Self::around`]; `None` without a pixel.
+    pub fn around_pixels(
+        size: (usize, usize),
+        margin_px: usize,
+        pixels: impl IntoIterator<Item = usize>,
+    ) -> Option<Self> {
+        let boxes = pixels
+            .into_iter()
+            .map(|pixel| Self::around_pixel(size, margin_px, [pixel % size.0.max(1), pixel / size.0.max(1)]));
+        boxes.reduce(|all, one| all.joined(&one))
+    }
+
     /// The rectangle of the pixels in the blocks of `self`, which is a rectangle of blocks.
     pub fn of_pixels(&self, blocks: &Blocks) -> Self {
         let side = blocks.side();
@@ -142,6 +154,9 @@ mod tests {
         let grown = Roi::around((10, 5), 3, wanted).unwrap();
         assert_eq!((grown.left, grown.top, grown.width, grown.height), (0, 0, 10, 5));
         assert_eq!(Roi::around((10, 5), 3, |_| false), None);
+        assert_eq!(Roi::around_pixels((10, 5), 0, [27, 12]), Some(tight));
+        assert_eq!(Roi::around_pixels((10, 5), 3, [27, 12]), Some(grown));
+        assert_eq!(Roi::around_pixels((10, 5), 3, []), None);
         assert_eq!(Roi::around((0, 0), 3, |_| true), None);
         assert_eq!(tight.raster(|pixel| pixel).as_slice()[5..7], [17, 22]);
         let picture = Raster::from_vec(10, 5, (0..50).collect()).unwrap();

@@ -12,7 +12,7 @@ use crate::view::{
     window_counts,
 };
 use egui::{Align, Label, Layout, RichText, Sense, Ui};
-use egui_extras::{Column, TableBuilder, TableRow};
+use egui_extras::{TableBuilder, TableRow};
 
 /// The column that the rows are sorted by.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -81,12 +81,7 @@ impl HypothesisTable {
         for (key, _, width, _) in COLUMNS {
             let width = if key == SortKey::Pixels { width.max(pixels_pt) } else { width };
             let last = key == SortKey::Becomes;
-            // A column that is not clipped never gets narrower than its contents were, and these fill it.
-            table = table.column(if last {
-                Column::remainder().at_least(width).clip(true)
-            } else {
-                Column::exact(width)
-            });
+            table = table.column(super::column(width, last));
         }
         if let Some(row) = order.iter().position(|&index| Some(rows[index].hypothesis) == focus) {
             table = table.scroll_to_row(row, None);

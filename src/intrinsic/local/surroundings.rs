@@ -1,7 +1,7 @@
 //! The unclipped pixels around blobs of clipped pixels, and the harmonic fill of a blob: the smoothest that is continuous with them.
 
 use crate::photo::Masks;
-use crate::raster::{Mask, Raster};
+use crate::raster::{Mask, Raster, Roi, relax};
 
 /// Finds the unclipped pixels around blobs of clipped pixels, ring by ring.
 pub struct Surroundings<'a> {
@@ -70,46 +70,18 @@ pub fn harmonic(
     let ring = || rings.iter().flatten().map(|&pixel| value(pixel));
     let count = ring().count() as f32;
     let sum = ring().fold([0.0f32; 3], |sum, color| std::array::from_fn(|band| sum[band] + color[band]));
-    let mut values = vec![sum.map(|sum| sum / count); blob.len()];
-    let mut order: Vec<usize> = (0..blob.len()).collect();
-    order.sort_unstable_by_key(|&index| blob[index]);
-    let place = |pixel: usize| {
-        let found = order.binary_search_by_key(&pixel, |&index| blob[index]);
-        found.ok().map(|at| order[at])
-    };
-    // Of each pixel: the neighbors inside the blob; the sum of the colors of the known neighbors outside; the
-    // number of all these neighbors.
-    let mut near = vec![[usize::MAX; 4]; blob.len()];
-    let mut fixed = vec![([0.0f32; 3], 0.0f32); blob.len()];
-    for (index, &pixel) in blob.iter().enumerate() {
-        let (border, weight) = &mut fixed[index];
-        let mut inside = 0;
+    let Some(roi) = Roi::around_pixels(masks.shape(), 1, blob.iter().copied()) else { return Vec::new() };
+    let mut values = Raster::filled(roi.width, roi.height, sum.map(|sum| sum / count));
+    let mut is_beside = Mask::filled(roi.width, roi.height, false);
+    for &pixel in blob {
         masks.for_each_neighbor(pixel, |next| {
-            if let Some(other) = place(next) {
-                near[index][inside] = other;
-                inside += 1;
-            } else if is_known(masks, next) {
-                border.iter_mut().zip(value(next)).for_each(|(sum, band)| *sum += band);
-            } else {
-                return;
+            if let Some(place) = roi.index(next).filter(|_| is_known(masks, next)) {
+                values[place] = value(next);
+                is_beside[place] = true;
             }
-            *weight += 1.0;
         });
     }
-    let across = (blob.len() as f32).sqrt() + 2.0;
-    let relaxation = 2.0 / (1.0 + std::f32::consts::PI / across);
-    for _ in 0..(3.0 * across) as usize + 20 {
-        for &index in &order {
-            let (mut sum, weight) = fixed[index];
-            for &next in near[index].iter().take_while(|&&next| next != usize::MAX) {
-                sum.iter_mut().zip(values[next]).for_each(|(sum, band)| *sum += band);
-            }
-            if weight > 0.0 {
-                for band in 0..3 {
-                    values[index][band] += relaxation * (sum[band] / weight - values[index][band]);
-                }
-            }
-        }
-    }
-    values
+    let places: Vec<usize> = blob.iter().filter_map(|&pixel| roi.index(pixel)).collect();
+    relax(&mut values, &is_beside, &mut places.clone(), usize::MAX);
+    places.into_iter().map(|place| values[place]).collect()
 }
