@@ -130,10 +130,12 @@ fn lacks_body(
         labels.for_each_neighbor(pixel, |near| {
             let is_own = explained[near] && labels[near] == labels[pixel];
             let is_bright = input.masks.distorted(near) || kinds[near] == PixelKind::Highlight;
-            if !(is_own && is_bright) && !input.masks.dark(near) {
-                own += usize::from(is_own);
-                others += usize::from(!is_own);
+            let is_of_highlight = is_own && is_bright;
+            if is_of_highlight || input.masks.dark(near) {
+                return;
             }
+            own += usize::from(is_own);
+            others += usize::from(!is_own);
         });
     }
     (own as f64) < LEAST_OWN_MATTE * (own + others) as f64
