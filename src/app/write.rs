@@ -183,8 +183,10 @@ fn percent_kept(keep_surface: f64) -> Option<f64> {
 /// `path` with an extension that names the format `format` (`jpg`, `tif` or `png`). The extension of another picture format is
 /// replaced. Any other extension belongs to the name, and the format's extension is appended.
 fn with_fitting_extension(path: &Path, format: &str) -> PathBuf {
-    const PICTURES: [&str; 14] =
-        ["bmp", "exr", "hdr", "jpeg", "jpg", "pbm", "pgm", "png", "pnm", "ppm", "qoi", "tif", "tiff", "webp"];
+    const PICTURES: [&str; 17] = [
+        "bmp", "exr", "hdr", "heic", "heif", "hif", "jpeg", "jpg", "pbm", "pgm", "png", "pnm", "ppm", "qoi",
+        "tif", "tiff", "webp",
+    ];
     let given = extension_of(path);
     let fits = match format {
         "jpg" => ["jpg", "jpeg"].contains(&given.as_str()),

@@ -113,14 +113,15 @@ impl Encoding {
 /// The file's statement about its tone curve: `None`, an encoding, or the reason why the statement cannot be used.
 ///
 /// Of a PNG's chunks the first present one of cICP, iCCP, sRGB and gAMA decides (PNG 3rd edition, 12.1 and 13.13).
+/// A HEIF has a profile or code points.
 fn said(source: &Source) -> Option<Result<Encoding, String>> {
     match source.format {
         Format::Exr => return Some(Ok(Encoding::new(ToneCurve::Linear, "OpenEXR is linear light"))),
         Format::Hdr => return Some(Ok(Encoding::new(ToneCurve::Linear, "Radiance HDR is linear light"))),
         _ => {}
     }
-    if let Some(cicp) = source.png.cicp
-        && let Some(said) = of_cicp(cicp)
+    if let Some(cicp) = source.cicp
+        && let Some(said) = of_cicp(cicp, source.format)
     {
         return Some(said);
     }
@@ -148,7 +149,8 @@ fn said(source: &Source) -> Option<Result<Encoding, String>> {
 const ADOBE_RGB_EXPONENT: f64 = 563.0 / 256.0;
 
 /// Tone curve of the transfer characteristics of ITU-T H.273, table 3; `None` for "unspecified".
-fn of_cicp([_, transfer, _, full_range]: [u8; 4]) -> Option<Result<Encoding, String>> {
+fn of_cicp([_, transfer, _, full_range]: [u8; 4], format: Format) -> Option<Result<Encoding, String>> {
+    let field = if format == Format::Heif { "HEIF nclx" } else { "PNG cICP" };
     let curve = match transfer {
         2 => return None,
         1 | 6 | 14 | 15 => Ok(ToneCurve::Bt709),
@@ -156,13 +158,13 @@ fn of_cicp([_, transfer, _, full_range]: [u8; 4]) -> Option<Result<Encoding, Str
         5 => Ok(ToneCurve::Gamma(2.8)),
         8 => Ok(ToneCurve::Linear),
         13 => Ok(ToneCurve::Srgb),
-        16 => Err("PNG cICP says PQ (SMPTE ST 2084), which is not supported".to_owned()),
-        18 => Err("PNG cICP says HLG (ARIB STD-B67), which is not supported".to_owned()),
-        other => Err(format!("PNG cICP says transfer characteristics {other}, which is not supported")),
+        16 => Err(format!("{field} says PQ (SMPTE ST 2084), which is not supported")),
+        18 => Err(format!("{field} says HLG (ARIB STD-B67), which is not supported")),
+        other => Err(format!("{field} says transfer characteristics {other}, which is not supported")),
     };
     Some(match curve {
-        Ok(_) if full_range == 0 => Err("PNG cICP says narrow range, which is not supported".into()),
-        Ok(curve) => Ok(Encoding::new(curve, format!("PNG cICP transfer {transfer}"))),
+        Ok(_) if full_range == 0 => Err(format!("{field} says narrow range, which is not supported")),
+        Ok(curve) => Ok(Encoding::new(curve, format!("{field} transfer {transfer}"))),
         Err(problem) => Err(problem),
     })
 }
@@ -198,7 +200,9 @@ mod tests {
 
     #[test]
     fn cicp_names_its_curves() {
-        let curve = |transfer| of_cicp([1, transfer, 0, 1]).map(|said| said.map(|e| e.curves[0].clone()));
+        let curve = |transfer| {
+            of_cicp([1, transfer, 0, 1], Format::Png).map(|said| said.map(|e| e.curves[0].clone()))
+        };
         assert_eq!(curve(2), None);
         assert_eq!(curve(1), Some(Ok(ToneCurve::Bt709)));
         assert_eq!(curve(4), Some(Ok(ToneCurve::Gamma(2.2))));
@@ -208,7 +212,7 @@ mod tests {
         for unsupported in [16, 18, 200] {
             assert!(curve(unsupported).unwrap().unwrap_err().contains("not supported"));
         }
-        assert!(of_cicp([1, 13, 0, 0]).unwrap().unwrap_err().contains("narrow range"));
+        assert!(of_cicp([1, 13, 0, 0], Format::Png).unwrap().unwrap_err().contains("narrow range"));
     }
 
     #[test]

@@ -23,6 +23,8 @@ pub enum Format {
     Exr,
     /// Radiance HDR, also called RGBE.
     Hdr,
+    /// HEIF with HEVC pictures (HEIC, HIF).
+    Heif,
 }
 
 impl fmt::Display for Format {
@@ -33,7 +35,7 @@ impl fmt::Display for Format {
 
 impl Format {
     /// Names of all formats as a list within a sentence.
-    pub const NAMES: &'static str = "PNG, JPEG, TIFF, BMP, PNM, WebP, OpenEXR or Radiance HDR";
+    pub const NAMES: &'static str = "PNG, JPEG, TIFF, BMP, PNM, WebP, HEIF, OpenEXR or Radiance HDR";
 
     /// Number of first bytes that [`Format::of_content`] needs.
     pub(super) const MAGIC_BYTES: usize = 16;
@@ -49,6 +51,7 @@ impl Format {
             Self::WebP => "WebP",
             Self::Exr => "OpenEXR",
             Self::Hdr => "Radiance HDR",
+            Self::Heif => "HEIF",
         }
     }
 
@@ -63,6 +66,7 @@ impl Format {
             Self::WebP => &["webp"],
             Self::Exr => &["exr"],
             Self::Hdr => &["hdr", "pic", "rgbe"],
+            Self::Heif => &["heic", "heif", "hif"],
         }
     }
 
@@ -73,8 +77,17 @@ impl Format {
     }
 
     /// All supported formats.
-    pub const ALL: [Self; 8] =
-        [Self::Png, Self::Jpeg, Self::Tiff, Self::Bmp, Self::Pnm, Self::WebP, Self::Exr, Self::Hdr];
+    pub const ALL: [Self; 9] = [
+        Self::Png,
+        Self::Jpeg,
+        Self::Tiff,
+        Self::Bmp,
+        Self::Pnm,
+        Self::WebP,
+        Self::Heif,
+        Self::Exr,
+        Self::Hdr,
+    ];
 
     /// Recognizes the format by the first bytes of a file, whatever the file's name.
     ///
@@ -103,14 +116,14 @@ impl Format {
             Ok(Self::Pnm)
         } else if starts(b"BM") {
             Ok(Self::Bmp)
+        } else if media(&[b"heic", b"heix", b"heim", b"heis", b"hevc", b"hevx", b"mif1", b"msf1"]) {
+            Ok(Self::Heif)
         } else if starts(b"GIF8") {
             Err("a GIF".into())
         } else if starts(b"8BPS") {
             Err("a Photoshop document".into())
         } else if media(&[b"avif", b"avis"]) {
             Err("an AVIF".into())
-        } else if media(&[b"heic", b"heix", b"mif1", b"msf1", b"heim", b"heis"]) {
-            Err("a HEIF".into())
         } else if media(&[b"crx "]) || starts(b"FUJIFILM") || starts(b"IIU\0") || starts(b"IIRO") {
             Err("a camera raw file".into())
         } else if starts(b"\xff\x0a") || starts(b"\0\0\0\x0cJXL ") {

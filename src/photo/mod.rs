@@ -194,6 +194,7 @@ fn source(format: Format, decoded: decode::Decoded) -> (Source, (usize, usize)) 
         max: decoded.max,
         alpha: decoded.alpha,
         icc: decoded.icc,
+        cicp: decoded.cicp,
         png: decoded.png,
         tiff_color: decoded.tiff_color,
         transfer: decoded.transfer,

@@ -19,7 +19,10 @@ pub struct Source {
     pub alpha: AlphaKind,
     /// Bytes of the embedded ICC profile.
     pub icc: Option<Vec<u8>>,
-    /// Color chunks of a PNG file, without the profile.
+    /// Code points of the color (ITU-T H.273) that a PNG (chunk cICP) or a HEIF (box nclx) states: primaries, transfer
+    /// characteristics, matrix and full-range flag of the samples as read.
+    pub cicp: Option<[u8; 4]>,
+    /// Other color chunks of a PNG file, without the profile.
     pub png: PngColor,
     /// White point and primaries of a TIFF or `OpenEXR` file.
     pub tiff_color: TiffColor,
@@ -128,11 +131,9 @@ pub enum AlphaKind {
     Associated,
 }
 
-/// The color chunks of a PNG (PNG 3rd edition, 11.3.2), without the embedded profile.
+/// The color chunks of a PNG (PNG 3rd edition, 11.3.2), without the embedded profile and the code points.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct PngColor {
-    /// Chunk cICP: primaries, transfer characteristics, matrix and full-range flag.
-    pub cicp: Option<[u8; 4]>,
     /// Chunk sRGB: number of the rendering intent.
     pub srgb: Option<u8>,
     /// Chunk gAMA: exponent of the file's encoding × 100 000.

@@ -42,7 +42,7 @@ const AT_HOME: &[(&[&str], &[&str], bool)] = &[
     (
         &[
             "image", "exr", "png", "tiff", "jpeg", "zune", "webp", "gif", "hdr", "exif", "moxcms", "qcms",
-            "lcms2",
+            "lcms2", "hpvcd",
         ],
         &["photo", "truth", "export"],
         false,

@@ -40,6 +40,7 @@ pub fn intact() -> Vec<(&'static str, Vec<u8>)> {
         ("a.exr", files::exr((17, 13), &[channel("R"), channel("G"), channel("B"), channel("A")])),
         ("y.exr", files::exr((17, 13), &[channel("Y")])),
         ("a.hdr", files::hdr((17, 13), &hdr)),
+        ("a.heic", crate::heif::PLAIN.to_vec()),
     ]
 }
 

@@ -10,6 +10,7 @@ mod encodings;
 mod files;
 mod formats;
 mod gaps;
+mod heif;
 mod hostile;
 mod kills;
 mod matte;

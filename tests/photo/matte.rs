@@ -74,6 +74,7 @@ fn lossless() -> Vec<(&'static str, Vec<u8>, &'static str)> {
         ("png rgba16", png(Rgba, 16, &deep, &[(*b"sRGB", &[1])], Some(&profile)), "matte.png"),
         ("bmp", files::bmp(tiny, Rgb8, &bytes(45)), "matte.png"),
         ("webp", files::webp(tiny, Rgba8, &bytes(60)), "matte.png"),
+        ("heic", crate::heif::PLAIN.to_vec(), "matte.png"),
         ("ppm", ppm, "matte.png"),
         (
             "tiff 8",

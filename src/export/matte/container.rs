@@ -129,7 +129,7 @@ fn png(
     let mut writer = encoder.write_header()?;
     // The chunks are written one by one, because the encoder writes only some combinations of these chunks.
     let chunks = photo.source.png;
-    if let Some(cicp) = chunks.cicp {
+    if let Some(cicp) = photo.source.cicp {
         writer.write_chunk(ChunkType(*b"cICP"), &cicp)?;
     }
     if let Some(intent) = chunks.srgb {

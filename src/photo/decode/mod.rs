@@ -5,6 +5,7 @@ mod exif;
 mod exr;
 mod guard;
 mod hdr;
+mod heif;
 mod ifd;
 mod jpeg;
 mod png;
@@ -31,6 +32,7 @@ pub(super) struct Decoded {
     pub max: Option<u32>,
     pub alpha: AlphaKind,
     pub icc: Option<Vec<u8>>,
+    pub cicp: Option<[u8; 4]>,
     pub png: PngColor,
     pub tiff_color: TiffColor,
     /// Tone curves of the bands that the file states otherwise than by a profile.
@@ -56,6 +58,7 @@ impl Decoded {
             samples,
             alpha: AlphaKind::Straight,
             icc: None,
+            cicp: None,
             png: PngColor::default(),
             tiff_color: TiffColor::default(),
             transfer: None,
@@ -148,5 +151,6 @@ fn of_format(format: Format, bytes: &[u8], budget: Budget) -> Result<Decoded, Fa
         Format::Pnm => simple::pnm(bytes, budget),
         Format::WebP => simple::webp(bytes, budget),
         Format::Hdr => hdr::decode(bytes, budget),
+        Format::Heif => heif::decode(bytes, budget),
     }
 }

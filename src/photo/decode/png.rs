@@ -39,6 +39,10 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     };
     let info = reader.info();
     let mut decoded = Decoded::plain(size, layout, samples);
+    decoded.cicp = info.coding_independent_code_points.map(|points| {
+        let range = u8::from(points.is_video_full_range_image);
+        [points.color_primaries, points.transfer_function, points.matrix_coefficients, range]
+    });
     decoded.png = color_chunks(info);
     decoded.icc = info.icc_profile.as_ref().map(|profile| profile.to_vec());
     decoded.orientation = info
@@ -61,10 +65,6 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
 
 fn color_chunks(info: &Info) -> PngColor {
     PngColor {
-        cicp: info.coding_independent_code_points.map(|points| {
-            let range = u8::from(points.is_video_full_range_image);
-            [points.color_primaries, points.transfer_function, points.matrix_coefficients, range]
-        }),
         srgb: info.srgb.map(|intent| intent as u8),
         gama: info.gama_chunk.map(png::ScaledFloat::into_scaled),
         chrm: info.chrm_chunk.map(|chunk| {
