@@ -178,8 +178,8 @@ impl Distorted<'_> {
         }
         let is_beside = known.map(|[_, weight]| *weight > 0.0);
         let mut filled = pull_push(known).map(|value| [*value]);
-        let mut places: Vec<usize> = pixels.filter_map(|pixel| roi.index(pixel)).collect();
-        relax(&mut filled, &is_beside, &mut places, MOST_UPDATES);
+        let places: Vec<usize> = pixels.filter_map(|pixel| roi.index(pixel)).collect();
+        relax(&mut filled, &is_beside, &places, MOST_UPDATES);
         for &index in blob {
             if let Some(place) = roi.index(pixel_of(index)) {
                 [priors[index as usize]] = filled[place];

@@ -165,6 +165,8 @@ impl Votes {
             (d.iter().chain(&b).all(|band| *band > 0.0)).then(|| Voter::new(d, b, input.sigma())).flatten()
         };
         let found: Vec<(usize, Voter)> = (0..window.len())
+            .into_par_iter()
+            .with_min_len(1 << 12)
             .filter(|&index| sums[index] > least)
             .filter_map(|index| Some((index, votes(index)?)))
             .collect();

@@ -20,6 +20,7 @@ use crate::photo::Masks;
 use crate::raster::{ComponentSearch, Connectivity, PixelIndex, Raster, Roi};
 use crate::segment::{AnalysisInput, LightFindings};
 use crate::trace::{LocalLimits, RestoredBand};
+use rayon::prelude::*;
 
 /// Largest interval of the light, degrees: surface reflection leaves the hue under the right light only.
 const MOST_INTERVAL_DEG: f64 = 15.0;
@@ -99,52 +100,73 @@ impl Hues {
     }
 }
 
+/// Least number of blobs that a thread takes at once.
+const LEAST_BLOBS: usize = 16;
+
 fn restored_bands(input: &AnalysisInput, thresholds: &[f32; 3], lamps: &Lamps) -> Vec<RestoredBand> {
-    let clipped = |pixel: usize| input.masks.clipped(pixel) && !input.masks.dark(pixel);
-    let only_clipped = |pixel: usize| only_clipped_band(input.pixels[pixel], thresholds);
-    let mut search = ComponentSearch::new(input.pixels.width(), input.pixels.height(), Connectivity::Eight);
-    let mut surroundings = Surroundings::new(input.masks);
-    let mut bands = Vec::new();
-    for start in 0..input.pixels.len() {
-        let Some(blob) = search.component_at(start, clipped) else { continue };
+    let blobs = blobs_to_restore(input, thresholds);
+    let restored = |surroundings: &mut Surroundings, blob: &Vec<usize>| {
         if input.stopped() {
-            return Vec::new();
+            Vec::new()
+        } else {
+            restored_in_blob(input, thresholds, lamps, surroundings, blob)
         }
-        if blob.len() > MOST_PIXELS || blob.iter().all(|&pixel| only_clipped(pixel).is_none()) {
-            continue;
-        }
-        let rings = surroundings.rings(blob, |_, _| false);
-        let chromatic = |pixel: usize| lamps.of(pixel).gain.chromatic_part(input.pixels[pixel]);
-        // Darker pixels around are another material or in shadow.
-        let bright = rings.iter().flatten().copied().filter(|&pixel| {
-            let color = input.pixels[pixel];
-            (0..3).any(|band| color[band] >= LEAST_AROUND * thresholds[band])
-        });
-        let (mut sum, mut mean, mut count) = ([0.0f32; 3], 0.0f32, 0.0f32);
-        for pixel in bright {
-            let part = chromatic(pixel);
-            sum = std::array::from_fn(|band| sum[band] + part[band]);
-            mean += lamps.of(pixel).gain.mean(input.pixels[pixel]);
-            count += 1.0;
-        }
-        let least_chroma = LEAST_CHROMA * mean / count;
-        // The comparison is false where no pixel around is bright.
-        let has_hue = length(sum) / count > least_chroma;
-        if !has_hue {
-            continue;
-        }
-        let chromatic = harmonic(input.masks, blob, &rings, chromatic);
-        for (&pixel, chromatic) in blob.iter().zip(chromatic) {
-            let band = only_clipped(pixel).filter(|_| length(chromatic) > least_chroma);
-            let value = band.and_then(|band| by_hue(input.pixels[pixel], band, chromatic, lamps.of(pixel)));
-            bands.extend(band.zip(value).map(|(band, value)| RestoredBand {
-                pixel: PixelIndex::from_index(pixel),
-                band: band as u8,
-                value,
-            }));
-        }
+    };
+    let blobs = blobs.par_iter().with_min_len(LEAST_BLOBS);
+    blobs.map_init(|| Surroundings::new(input.masks), restored).flatten_iter().collect()
+}
+
+/// The blobs of clipped pixels of at most [`MOST_PIXELS`] of which one has a single clipped band.
+fn blobs_to_restore(input: &AnalysisInput, thresholds: &[f32; 3]) -> Vec<Vec<usize>> {
+    let clipped = |pixel: usize| input.masks.clipped(pixel) && !input.masks.dark(pixel);
+    let has_single = |&pixel: &usize| only_clipped_band(input.pixels[pixel], thresholds).is_some();
+    let mut search = ComponentSearch::new(input.pixels.width(), input.pixels.height(), Connectivity::Eight);
+    let mut blobs = Vec::new();
+    for start in 0..input.pixels.len() {
+        let blob = search.component_at(start, clipped);
+        blobs.extend(
+            blob.filter(|blob| blob.len() <= MOST_PIXELS && blob.iter().any(has_single)).map(<[_]>::to_vec),
+        );
     }
-    bands
+    blobs
+}
+
+/// The restored bands of a blob; none where the pixels around have no hue that could be continued.
+fn restored_in_blob(
+    input: &AnalysisInput,
+    thresholds: &[f32; 3],
+    lamps: &Lamps,
+    surroundings: &mut Surroundings,
+    blob: &[usize],
+) -> Vec<RestoredBand> {
+    let rings = surroundings.rings(blob, |_, _| false);
+    let chromatic = |pixel: usize| lamps.of(pixel).gain.chromatic_part(input.pixels[pixel]);
+    // Darker pixels around are another material or in shadow.
+    let bright = rings.iter().flatten().copied().filter(|&pixel| {
+        let color = input.pixels[pixel];
+        (0..3).any(|band| color[band] >= LEAST_AROUND * thresholds[band])
+    });
+    let (mut sum, mut mean, mut count) = ([0.0f32; 3], 0.0f32, 0.0f32);
+    for pixel in bright {
+        let part = chromatic(pixel);
+        sum = std::array::from_fn(|band| sum[band] + part[band]);
+        mean += lamps.of(pixel).gain.mean(input.pixels[pixel]);
+        count += 1.0;
+    }
+    let least_chroma = LEAST_CHROMA * mean / count;
+    // The comparison is false where no pixel around is bright.
+    let has_hue = length(sum) / count > least_chroma;
+    if !has_hue {
+        return Vec::new();
+    }
+    let chromatic = harmonic(input.masks, blob, &rings, chromatic);
+    let restored = blob.iter().zip(chromatic).filter_map(|(&pixel, chromatic)| {
+        let color = input.pixels[pixel];
+        let band = only_clipped_band(color, thresholds).filter(|_| length(chromatic) > least_chroma)?;
+        let value = by_hue(color, band, chromatic, lamps.of(pixel))?;
+        Some(RestoredBand { pixel: PixelIndex::from_index(pixel), band: band as u8, value })
+    });
+    restored.collect()
 }
 
 /// The only band of a color that is clipped; none where no band is, or several are.

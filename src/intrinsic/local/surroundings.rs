@@ -82,6 +82,6 @@ pub fn harmonic(
         });
     }
     let places: Vec<usize> = blob.iter().filter_map(|&pixel| roi.index(pixel)).collect();
-    relax(&mut values, &is_beside, &mut places.clone(), usize::MAX);
+    relax(&mut values, &is_beside, &places, usize::MAX);
     places.into_iter().map(|place| values[place]).collect()
 }
