@@ -23,7 +23,7 @@
 //!
 //! [`choose_light`] is the whole rule. The function reads its arguments only; `planar` carries the decision out.
 
-use super::illuminant::{MOST_LAMP_OFFSETS_DEG, unusualness, white_offsets_deg};
+use super::illuminant::{LEAST_BAND, MOST_LAMP_OFFSETS_DEG, unusualness, white_offsets_deg};
 use super::plane_light::PlaneLight;
 use super::vote_light::VoteLight;
 use crate::color::{Vec3, axis_angle_deg};
@@ -154,7 +154,9 @@ fn odds(evidence: &LightEvidence, votes: &VoteLight) -> LightOdds {
 fn planes_could_be(planes: &PlaneLight) -> bool {
     let usual = |direction: Vec3| {
         let offsets_deg = white_offsets_deg(&direction);
-        (0..2).all(|axis| offsets_deg[axis].abs() <= LIGHT_LIMITS.planes_offsets_deg[axis])
+        let is_near_white =
+            (0..2).all(|axis| offsets_deg[axis].abs() <= LIGHT_LIMITS.planes_offsets_deg[axis]);
+        is_near_white && direction.min() >= LEAST_BAND
     };
     planes.known_direction().is_some_and(usual) && planes.interval_deg <= LIGHT_LIMITS.planes_interval_deg
 }
@@ -251,6 +253,17 @@ mod tests {
         );
         assert_eq!(basis(&evidence(25.0, 20.1, 0.5)), LightBasis::Planes, "an unusual light by votes");
         assert_eq!(basis(&evidence(25.0, 3.0, 0.009)), LightBasis::Planes, "too few votes agree");
+    }
+
+    #[test]
+    fn planes_for_a_light_that_lacks_a_band_are_void() {
+        let light = |blue: f64| {
+            let usual = evidence(0.0, 0.0, 0.0);
+            let direction = Some(Vec3::new(0.8, 0.6, blue).normalize());
+            LightEvidence { planes: PlaneLight { direction, ..usual.planes }, votes: None, ..usual }
+        };
+        assert_eq!(basis(&light(0.02)), LightBasis::Nothing, "a street lamp's own glow");
+        assert_eq!(basis(&light(0.09)), LightBasis::Planes, "tungsten without a white balance");
     }
 
     #[test]
