@@ -189,7 +189,7 @@ mod tests {
             (&refusal["values"]["challenger"], &refusal["thresholds"]["all"]),
             (&Value::Null, &Value::Null)
         );
-        let pass = line(&Step::Event(&Event::PassBegan(PassBegan { pass: Pass::SecondLook(6) })));
+        let pass = line(&Step::Event(&Event::PassBegan(PassBegan { pass: Pass::SmallerWindows(6) })));
         assert_eq!(pass["values"], json!({"pass": "second look", "window_size": 6}));
         let label = line(&Step::Label { pixel: PixelIndex::new(1), kind: PixelKind::Lost });
         assert_eq!(label["values"]["role"], "lost");

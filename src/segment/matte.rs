@@ -11,8 +11,8 @@ use super::unite::{merge_regions, vote};
 use crate::raster::{LabelMap, UNASSIGNED};
 use crate::trace::{Pass, Recorder};
 
-/// Sides of the windows and minimal areas of the second looks, pixels.
-const SECOND_LOOKS: [(usize, usize); 2] = [(10, 150), (6, 72)];
+/// Sides of the smaller windows and their minimal areas, pixels.
+const SMALLER_WINDOWS: [(usize, usize); 2] = [(10, 150), (6, 72)];
 
 /// Output of the linear stage.
 #[derive(Clone, Debug, PartialEq)]
@@ -38,10 +38,10 @@ pub fn matte_regions<R: Recorder>(
     let first = SeedAreaRules { min_area_px, points: false, through_black: false };
     linear(input, windows, areas, &first, &mut hypotheses, &mut recorded_labels);
     absorb_highlights(input, &mut hypotheses, &mut recorded_labels);
-    second_look(input, &mut hypotheses, &mut recorded_labels);
-    // Without newly released pixels another second look would find the same.
+    repeat_in_smaller_windows(input, &mut hypotheses, &mut recorded_labels);
+    // Without newly released pixels another search in smaller windows would find the same.
     if absorb_highlights(input, &mut hypotheses, &mut recorded_labels) {
-        second_look(input, &mut hypotheses, &mut recorded_labels);
+        repeat_in_smaller_windows(input, &mut hypotheses, &mut recorded_labels);
         absorb_highlights(input, &mut hypotheses, &mut recorded_labels);
     }
     if input.refine.proximity_vote {
@@ -69,8 +69,9 @@ fn absorb_highlights<R: Recorder>(
 }
 
 /// Repeats classification, merging and the linear stage on the leftover pixels, with smaller windows and areas, for objects
-/// that are smaller than the minimal area or whose colors vary too little for a line (refinement `second_look`).
-fn second_look<R: Recorder>(
+/// that are smaller than the minimal area or whose colors vary too little for a line (refinement `second_look`). What ARCHITECTURE.md calls
+/// the second look is another step: it takes place in a finer picture (`analysis/second_look`).
+fn repeat_in_smaller_windows<R: Recorder>(
     input: &AnalysisInput,
     hypotheses: &mut Vec<Hypothesis>,
     recorded_labels: &mut RecordedLabels<R>,
@@ -78,11 +79,11 @@ fn second_look<R: Recorder>(
     if !input.refine.second_look {
         return;
     }
-    for (size_px, min_area_px) in SECOND_LOOKS {
+    for (size_px, min_area_px) in SMALLER_WINDOWS {
         if input.stopped() {
             return;
         }
-        recorded_labels.begin(Pass::SecondLook(size_px as u16));
+        recorded_labels.begin(Pass::SmallerWindows(size_px as u16));
         let min_area_px = min_area_px.min(input.used.min_area as usize);
         let mut classifier = Classifier::new(input.used.camera_noise, input.refine.tail_test);
         let labels = &recorded_labels.labels;

@@ -5,6 +5,9 @@ use crate::describe::Names;
 use crate::trace::{Pass, PassBegan, StageBegan};
 use serde_json::json;
 
+/// The pass in smaller windows in trace lines: the name of its refinement, on which scripts depend.
+const SMALLER_WINDOWS: &str = "second look";
+
 impl Describe for StageBegan {
     fn sentence(&self, _names: &Names) -> String {
         format!("stage {} begins", self.stage.name())
@@ -23,14 +26,14 @@ impl Describe for StageBegan {
 impl Describe for PassBegan {
     fn sentence(&self, _names: &Names) -> String {
         match self.pass {
-            Pass::SecondLook(size) => format!("{} in windows of {size} px", self.pass.name()),
+            Pass::SmallerWindows(size) => format!("{} of {size} px", self.pass.name()),
             _ => self.pass.name().to_owned(),
         }
     }
 
     fn line_objects(&self, _names: &Names) -> LineObjects {
         let values = match self.pass {
-            Pass::SecondLook(size) => json!({"pass": self.pass.name(), "window_size": size}),
+            Pass::SmallerWindows(size) => json!({"pass": SMALLER_WINDOWS, "window_size": size}),
             _ => json!({"pass": self.pass.name()}),
         };
         LineObjects::new(nothing(), values, nothing())
@@ -38,6 +41,6 @@ impl Describe for PassBegan {
 
     #[cfg(test)]
     fn example() -> Self {
-        Self { pass: Pass::SecondLook(6) }
+        Self { pass: Pass::SmallerWindows(6) }
     }
 }

@@ -32,7 +32,7 @@ pub enum Pass {
     /// Broad highlights are absorbed by their objects (refines 5.3).
     Absorbing,
     /// Unexplained pixels are classified again in windows of this side, pixels (refines 5.3).
-    SecondLook(u16),
+    SmallerWindows(u16),
     /// Contested pixels go to the majority around them (refines 5.3.2).
     Vote,
     /// Hypotheses on one matte line become one (refines 5.3.2).
@@ -72,7 +72,7 @@ pub enum Pass {
 }
 
 impl Pass {
-    /// The name on the timeline and in traces.
+    /// The name on the timeline and in sentences.
     pub const fn name(self) -> &'static str {
         match self {
             Self::Splitting => "region splitting",
@@ -80,7 +80,7 @@ impl Pass {
             Self::Marked => "marked pixels",
             Self::Hypotheses => "hypotheses",
             Self::Absorbing => "absorb highlights",
-            Self::SecondLook(_) => "second look",
+            Self::SmallerWindows(_) => "smaller windows",
             Self::Vote => "proximity vote",
             Self::Uniting => "unite regions",
             Self::Candidates => "skewed-T tests",

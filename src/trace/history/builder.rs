@@ -166,9 +166,9 @@ impl<'a> HistoryBuilder<'a> {
                 if self.stage == Stage::Classify {
                     self.distorted_wait = laid.tail_test;
                 }
-                // A second look is at pixels in no hypothesis.
-                let looked_at = self.holder.is_none() && self.masks.usable(self.pixel);
-                self.patch = (self.stage == Stage::Classify || looked_at)
+                // Smaller windows are laid on pixels in no hypothesis.
+                let is_leftover = self.holder.is_none() && self.masks.usable(self.pixel);
+                self.patch = (self.stage == Stage::Classify || is_leftover)
                     .then(|| Patch::new(laid, self.pixel, self.image.width()));
             }
             Event::SeedsPlaced(_) => self.cause = Cause::Seeds,

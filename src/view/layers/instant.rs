@@ -162,7 +162,7 @@ impl WindowsView {
         self.tried.iter().position(|area| *area == self.areas[window])
     }
 
-    /// Paints frames of the classified windows over hypotheses: the grid of a second look.
+    /// Paints frames of the classified windows over hypotheses: the grid of smaller windows in which unexplained pixels are classified again.
     fn outline(&self, painted: &mut Raster<[u8; 4]>) {
         let (side, columns, width) = (self.size_px, self.columns.max(1), painted.width());
         rows(painted, |y, row| {

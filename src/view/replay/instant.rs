@@ -63,7 +63,7 @@ pub struct RegionsView {
     pub beside: Vec<u32>,
     /// Whether `beside` holds the pixels of such a cluster.
     pub tested: bool,
-    /// The windows of a second look.
+    /// The windows in which unexplained pixels are classified again.
     pub windows: Option<WindowsView>,
 }
 
@@ -131,8 +131,8 @@ impl Instant {
                 windows.map_or(InstantView::Nothing, InstantView::Windows)
             }
             Some(Stage::Linear | Stage::Planar | Stage::Clipping) => {
-                let second = matches!(replay.pass(), Some(Pass::SecondLook(_)));
-                let windows = windows.filter(|_| second);
+                let is_in_windows = matches!(replay.pass(), Some(Pass::SmallerWindows(_)));
+                let windows = windows.filter(|_| is_in_windows);
                 InstantView::Regions(regions(replay, names, chosen, colors, masks, windows))
             }
             Some(Stage::Split) => {
