@@ -1,6 +1,6 @@
 //! Analyze a photograph in ten lines: `cargo run --release --example analyze [IMAGE]`.
 
-use dichroscope::{analysis::Session, params::Params, photo};
+use dichroscope::{analysis::Session, describe::sentences, params::Params, photo};
 use std::{path::Path, sync::Arc};
 
 const SAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png");
@@ -11,7 +11,7 @@ fn main() -> anyhow::Result<()> {
     let analysis = Session::new(Arc::new(photo.image)).run(&Params::default(), &mut ())?;
     println!("{} regions", analysis.intrinsic.regions.len());
     println!("color of the light: {:?}", analysis.illuminant.map(|light| light.direction));
-    for warning in photo.warnings.iter().chain(&analysis.warnings) {
+    for warning in photo.warnings.iter().chain(&sentences(&analysis.warnings)) {
         println!("beware: {warning}");
     }
     Ok(())

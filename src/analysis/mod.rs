@@ -25,6 +25,7 @@ pub use crate::segment::Illuminant;
 pub use output::StageOutput;
 pub use resolve::NoiseFindings;
 pub use second_look::SecondLookFindings;
+pub use warnings::RunWarning;
 pub use what_if::{Direction, Fate, Home, WhatIf, WhatIfObserver, what_if};
 
 use crate::intrinsic::Intrinsic;
@@ -91,8 +92,8 @@ pub struct Analysis {
     pub intrinsic: Arc<Intrinsic>,
     /// The errors of the image's values: measured noise, and the error of the file's way of storing values.
     pub noise: Arc<NoiseFindings>,
-    /// Warnings, a sentence each.
-    pub warnings: Vec<String>,
+    /// Warnings about the whole run.
+    pub warnings: Vec<RunWarning>,
 }
 
 impl Analysis {

@@ -4,6 +4,7 @@ use super::light_facts::{AmbientFacts, IlluminantFacts, NoiseFacts};
 use super::region_facts::RegionFacts;
 use super::scores::Scores;
 use super::skewed_t_facts::SkewedTFacts;
+use super::words::sentences;
 use crate::analysis::{Analysis, Stage};
 use crate::intrinsic::Reason;
 use crate::params::{
@@ -88,7 +89,7 @@ impl Report {
             regions: analysis.intrinsic.regions.iter().map(RegionFacts::from).collect(),
             unassigned_pixels: unassigned,
             reasons: reasons(analysis),
-            warnings: file_warnings.iter().chain(&analysis.warnings).cloned().collect(),
+            warnings: file_warnings.iter().cloned().chain(sentences(&analysis.warnings)).collect(),
             scores: None,
             timings_ms: Timings::default(),
         }

@@ -1,5 +1,6 @@
 //! What the report says of noise, ambient light and illuminant.
 
+use super::words::{ambient_reason, light_reason};
 use crate::analysis::Analysis;
 use crate::intrinsic::Ambient;
 use crate::segment::{LightBasis, LightFindings};
@@ -36,7 +37,7 @@ impl AmbientFacts {
         Self {
             subtracted,
             verdict: verdict.name().to_owned(),
-            reason: verdict.reason().to_owned(),
+            reason: ambient_reason(verdict).to_owned(),
             meeting: meeting.map(|meeting| meeting.counts),
             sd_counts: meeting.map(|meeting| meeting.sd_counts),
             lines: meeting.map_or(0, |meeting| meeting.lines),
@@ -194,7 +195,7 @@ impl IlluminantFacts {
             objects: analysis.illuminant.map_or(0, |light| light.objects),
             given: analysis.illuminant.is_some_and(|light| light.given),
             basis: basis.name().to_owned(),
-            reason: light.reason(),
+            reason: light_reason(light).to_owned(),
             interval_deg: light.interval_deg,
             second: light.second.map(|second| SecondLampFacts {
                 direction: second.direction,

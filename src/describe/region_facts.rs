@@ -1,5 +1,6 @@
 //! What the report says of each region.
 
+use super::words::sentences;
 use crate::intrinsic::{HighlightBranch, RegionReflection};
 use serde::{Deserialize, Serialize};
 
@@ -89,7 +90,7 @@ impl From<&RegionReflection> for RegionFacts {
             texture: region.texture,
             separable: region.separable,
             neighbors: region.neighbors.iter().map(|id| id.get()).collect(),
-            warnings: region.warnings.clone(),
+            warnings: sentences(&region.warnings),
         }
     }
 }

@@ -292,6 +292,7 @@ pub fn finals(scene: &Scene) -> Figure {
 
 /// Why there is no region, a sentence.
 pub fn no_region(scene: &Scene) -> String {
-    let why = scene.shown.analysis.warnings.first().map_or("none was found", String::as_str);
-    format!("Not shown: there is no region, as {}.", why.trim_end_matches('.'))
+    let warning = scene.shown.analysis.warnings.first();
+    let why = warning.map_or_else(|| "none was found".to_owned(), ToString::to_string);
+    format!("Not shown: there is no region, as {why}.")
 }

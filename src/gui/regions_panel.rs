@@ -6,6 +6,7 @@ mod light_summary;
 use super::theme::{SMALL_PT, ThemeColors};
 use super::{PanelContext, context_menu, widgets};
 use crate::app::Edit;
+use crate::describe::sentences;
 use crate::intrinsic::{HighlightBranch, RegionReflection};
 use crate::view::{Item, ResultSnapshot};
 use egui::{Align, Button, Color32, Label, Layout, RichText, Sense, Ui};
@@ -298,12 +299,12 @@ fn cells(
 fn notes(ui: &mut Ui, region: &RegionReflection, palette: &ThemeColors) {
     let Some(first) = region.warnings.first() else { return };
     let more = region.warnings.len() - 1;
-    let text = if more > 0 { format!("{first} (+{more})") } else { first.clone() };
+    let text = if more > 0 { format!("{first} (+{more})") } else { first.to_string() };
     let color = if region.model_fits() { palette.secondary } else { palette.warning };
     let label = Label::new(RichText::new(text).size(SMALL_PT).color(color))
         .truncate()
         .show_tooltip_when_elided(false);
-    ui.add(label.selectable(false)).on_hover_text(region.warnings.join("\n"));
+    ui.add(label.selectable(false)).on_hover_text(sentences(&region.warnings).join("\n"));
 }
 
 /// Tooltip about the shades on which a region's highlights lie, one line per highlight line (section 7.4).

@@ -9,6 +9,7 @@
 //! the least angle is asin(r / L). Where the distance is less than 2r, at least half of the highlight cluster lies in the
 //! cylinder: below asin(2r / L) the split is doubtful.
 
+use super::region_warning::AngleWarning;
 use crate::color::vec3;
 use crate::reflection::{HighlightTest, MIN_ANGLE_DEG};
 use crate::segment::{AnalysisInput, Pixels, PlanarHypothesis};
@@ -21,7 +22,7 @@ const SMALL_ANGLE_DEG: f64 = 14.0;
 pub(super) struct AngleLimits {
     /// The region is not split below this angle.
     pub(super) least_deg: f64,
-    /// A note in the report tells that the split is doubtful below this angle.
+    /// The report warns that the split is doubtful below this angle.
     pub(super) doubtful_deg: f64,
     /// Length of the highlight cluster from which both angles follow, counts; none for the fixed angles.
     pub(super) extent_counts: Option<f64>,
@@ -56,28 +57,17 @@ impl AngleLimits {
         }
     }
 
-    /// The note about a region whose vectors are `angle_deg` apart; none for an ample angle.
-    pub(super) fn warning(&self, angle_deg: f64) -> Option<String> {
+    /// The warning about a region whose vectors are `angle_deg` apart; none for an ample angle.
+    pub(super) fn warning(&self, angle_deg: f64) -> Option<AngleWarning> {
         let Self { least_deg, doubtful_deg, extent_counts } = *self;
         if angle_deg >= doubtful_deg {
             return None;
         }
         Some(match (angle_deg < least_deg, extent_counts) {
-            (true, None) => format!(
-                "body and surface vector are collinear ({angle_deg:.1}\u{b0}): everything counts as body reflection"
-            ),
-            (false, None) => format!(
-                "body and surface vector are only {angle_deg:.1}\u{b0} apart: the split amplifies noise {:.0} times",
-                1.0 / angle_deg.to_radians().sin()
-            ),
-            (true, Some(extent)) => format!(
-                "body and surface vector are {angle_deg:.1}\u{b0} apart, a highlight cluster of {extent:.0} counts needs \
-                 {least_deg:.1}\u{b0} to leave the matte cylinder: the region is not split (7.5)"
-            ),
-            (false, Some(extent)) => format!(
-                "body and surface vector are {angle_deg:.1}\u{b0} apart: at least half of the highlight cluster of \
-                 {extent:.0} counts lies in the matte cylinder (7.5)"
-            ),
+            (true, None) => AngleWarning::Collinear { angle_deg },
+            (false, None) => AngleWarning::Noise { angle_deg },
+            (true, Some(extent_counts)) => AngleWarning::InCylinder { angle_deg, extent_counts, least_deg },
+            (false, Some(extent_counts)) => AngleWarning::HalfInCylinder { angle_deg, extent_counts },
         })
     }
 }
@@ -104,12 +94,17 @@ mod tests {
     }
 
     #[test]
-    fn only_an_angle_below_a_limit_is_worth_a_note() {
+    fn only_an_angle_below_a_limit_is_worth_a_warning() {
+        use AngleWarning::{Collinear, HalfInCylinder, InCylinder, Noise};
         let limits = AngleLimits::of_cluster(10.0, 100.0);
         assert_eq!(limits.warning(12.0), None);
-        assert!(limits.warning(8.0).unwrap().contains("at least half"));
-        assert!(limits.warning(4.0).unwrap().contains("needs 5.7\u{b0}"));
-        assert!(AngleLimits::FIXED.warning(2.0).unwrap().contains("collinear"));
-        assert!(AngleLimits::FIXED.warning(12.0).unwrap().contains("noise 5 times"));
+        let half = HalfInCylinder { angle_deg: 8.0, extent_counts: 100.0 };
+        assert_eq!(limits.warning(8.0), Some(half));
+        let least_deg = limits.least_deg;
+        let inside = InCylinder { angle_deg: 4.0, extent_counts: 100.0, least_deg };
+        assert_eq!(limits.warning(4.0), Some(inside));
+        assert_eq!(AngleLimits::FIXED.warning(2.0), Some(Collinear { angle_deg: 2.0 }));
+        assert_eq!(AngleLimits::FIXED.warning(12.0), Some(Noise { angle_deg: 12.0 }));
+        assert_eq!(AngleLimits::FIXED.warning(14.0), None);
     }
 }

@@ -17,6 +17,7 @@ mod plane_evidence;
 mod reason;
 mod region;
 mod region_plan;
+mod region_warning;
 mod restore;
 mod split;
 mod vectors;
@@ -25,6 +26,7 @@ pub use detail::Detail;
 pub use full_resolution::split_photograph;
 pub use reason::Reason;
 pub use region_plan::{FittedPlace, RegionPlans};
+pub use region_warning::{AngleWarning, RegionWarning};
 pub use split::{JudgedPlans, WorkingSplit, judged_plans, split};
 
 use crate::raster::{Raster, RegionId};
@@ -111,8 +113,8 @@ pub struct RegionReflection {
     pub separable: bool,
     /// The adjacent regions, ascending.
     pub neighbors: Vec<RegionId>,
-    /// Warnings about the region's split, each an English phrase.
-    pub warnings: Vec<String>,
+    /// Warnings about the region's split.
+    pub warnings: Vec<RegionWarning>,
 }
 
 impl RegionReflection {

@@ -2,6 +2,7 @@
 
 use super::confidence::of_region;
 use super::region_plan::RegionPlan;
+use super::region_warning::RegionWarning;
 use super::{HighlightBranch, RegionReflection};
 use crate::color::Vec3;
 use crate::raster::{Raster, RegionId};
@@ -114,100 +115,59 @@ impl RegionSummary<'_> {
         pixels.into_iter().zip(plan.starts.iter().zip(&plan.start_bodies)).map(branch).collect()
     }
 
-    fn warnings(&self, input: &AnalysisInput, plan: &RegionPlan, angle_deg: Option<f64>) -> Vec<String> {
+    /// The doubts about the region's split.
+    fn warnings(
+        &self,
+        input: &AnalysisInput,
+        plan: &RegionPlan,
+        angle_deg: Option<f64>,
+    ) -> Vec<RegionWarning> {
         let mut warnings = Vec::new();
         match angle_deg {
-            None if plan.splitter.keeps_color => {
-                warnings.push("no dichromatic plane: the region is not split".to_owned());
-            }
-            None => warnings.push("no dichromatic plane: everything counts as body reflection".to_owned()),
-            Some(angle) => warnings.extend(plan.angle_limits.warning(angle)),
+            None => warnings.push(RegionWarning::NoPlane { keeps_color: plan.splitter.keeps_color }),
+            Some(angle) => warnings.extend(plan.angle_limits.warning(angle).map(RegionWarning::Angle)),
         }
         warnings.extend(fit_warnings(input, plan));
         let foot = plan.hypothesis.matte.foot().norm();
         if foot > self.fit_sigma {
-            warnings.push(format!(
-                "the matte line misses black by {foot:.1} counts: ambient light, inter-reflection or no single material"
-            ));
+            warnings.push(RegionWarning::OffBlack { counts: foot });
         }
         let lost = self.pixels.iter().filter(|&p| self.kinds[p as usize] == PixelKind::Lost).count();
         if lost > 0 {
-            warnings.push(format!("{lost} pixels are clipped in every band: their split is a guess"));
+            warnings.push(RegionWarning::Clipped { pixels: lost });
         }
-        warnings.extend(several_highlights(&plan.start_bodies));
+        if plan.start_bodies.len() > 1 {
+            warnings.push(RegionWarning::SeveralHighlights { bodies_counts: plan.start_bodies.clone() });
+        }
         warnings
     }
 }
 
 /// The warnings about the measures beyond the limits of a region that the model fits.
-fn fit_warnings(input: &AnalysisInput, plan: &RegionPlan) -> Vec<String> {
+fn fit_warnings(input: &AnalysisInput, plan: &RegionPlan) -> Vec<RegionWarning> {
     let mut warnings = Vec::new();
     let fit = &plan.fit;
     if fit.poor() {
-        let what = if plan.transform().is_some() { "plane" } else { "matte line" };
-        let (rms, limit) = (fit.rms_counts, fit.limits().rms_counts);
-        warnings
-            .push(format!("poor fit: pixels lie {rms:.1} counts from the {what} (rms), {limit:.1} is noise"));
+        warnings.push(RegionWarning::PoorFit {
+            has_plane: plan.transform().is_some(),
+            rms_counts: fit.rms_counts,
+            limit_counts: fit.limits().rms_counts,
+        });
     }
     if fit.textured() {
-        warnings.push(format!(
-            "texture: surface and body vary against each other (correlation \u{2212}{:.2})",
-            fit.texture.min(1.0)
-        ));
+        warnings.push(RegionWarning::Texture { anticorrelation: fit.texture });
     }
     if fit.has_color_of_light() {
-        warnings.push(format!(
-            "the light is uncertain by {:.1} times the angle between body and surface vector: body and surface reflection are \
-             one color as far as is known",
-            fit.light_share
-        ));
+        warnings.push(RegionWarning::ColorOfLight { light_share: fit.light_share });
     }
     if fit.has_new_edges() {
-        warnings.push(format!(
-            "part of an object: the split would make new edges at {:.0} % of the border",
-            100.0 * fit.new_edges.share()
-        ));
+        warnings.push(RegionWarning::NewEdges { share: fit.new_edges.share() });
     }
-    if let Some(highlights) = fit.highlights.filter(|_| fit.lacks_highlights()) {
-        warnings.push(format!(
-            "print or another color: what the plane takes for surface reflection is a highlight with a probability of {highlights:.2}"
-        ));
+    if let Some(probability) = fit.highlights.filter(|_| fit.lacks_highlights()) {
+        warnings.push(RegionWarning::NoHighlights { probability });
     }
     if !plan.model_fits() {
-        let pixels = if input.refine.local_split {
-            "the local split alone divides its pixels"
-        } else {
-            "its pixels are not split"
-        };
-        warnings.push(format!("the model does not hold: the plane of the region is not used, {pixels}"));
+        warnings.push(RegionWarning::ModelFails { is_split_locally: input.refine.local_split });
     }
     warnings
-}
-
-/// The warning about highlights on different amounts of body reflection `bodies`, counts; none for fewer than two.
-fn several_highlights(bodies: &[f32]) -> Option<String> {
-    let (last, others) = bodies.split_last().filter(|(_, others)| !others.is_empty())?;
-    let others: Vec<String> = others.iter().map(|body| format!("{body:.0}")).collect();
-    let many = ["two", "three", "four"].get(others.len() - 1).copied().unwrap_or("several");
-    let others = others.join(", ");
-    Some(format!(
-        "{many} highlights with different body reflection under them: m_b {others} and {last:.0} counts (7.4)"
-    ))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::several_highlights;
-
-    #[test]
-    fn only_highlights_on_different_shades_are_worth_a_sentence() {
-        assert_eq!((several_highlights(&[]), several_highlights(&[84.0])), (None, None));
-        let two = several_highlights(&[84.4, 131.6]).unwrap();
-        assert_eq!(
-            two,
-            "two highlights with different body reflection under them: m_b 84 and 132 counts (7.4)"
-        );
-        let three = several_highlights(&[84.4, 131.6, 20.0]).unwrap();
-        assert!(three.starts_with("three") && three.contains("m_b 84, 132 and 20 counts"), "{three}");
-    }
 }

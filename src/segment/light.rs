@@ -75,36 +75,4 @@ impl LightFindings {
         let (first, second) = (self.direction?, self.second?.direction);
         Some(crate::color::axis_angle_deg(&first.into(), &second.into()))
     }
-
-    /// Why this light is used, in words that complete a sentence.
-    pub fn reason(&self) -> String {
-        match self.basis {
-            LightBasis::NotSought => "the method finds regions alone and seeks no light".to_owned(),
-            LightBasis::Given => "it was given".to_owned(),
-            LightBasis::Average if self.direction.is_none() => {
-                "no highlight was found: no neighbor of a region passed the tests".to_owned()
-            }
-            LightBasis::Average => "the average of the highlight directions".to_owned(),
-            LightBasis::ByHand if self.direction.is_none() => "the marked pixels have no skewed T".to_owned(),
-            LightBasis::ByHand => "the highlight line of the marked pixels".to_owned(),
-            LightBasis::Planes => {
-                let alone = if self.highlights_alone {
-                    ", those of the highlights alone, as faint surface reflection has another color (ambient light)"
-                } else {
-                    ""
-                };
-                format!("dichromatic planes{alone}")
-            }
-            LightBasis::Votes => {
-                "votes of small highlights: the planes' light is less usual or less exactly known".to_owned()
-            }
-            LightBasis::Nothing if self.planes.is_none() && self.votes.is_none() => {
-                "no highlight was found, neither on a region nor a small one".to_owned()
-            }
-            LightBasis::Nothing => {
-                "the planes give no light that a lamp could have, and small highlights do not agree on a usual one"
-                    .to_owned()
-            }
-        }
-    }
 }

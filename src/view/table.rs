@@ -1,6 +1,7 @@
 //! The regions as text for other programs.
 
 use super::ResultSnapshot;
+use crate::describe::sentences;
 use crate::intrinsic::RegionReflection;
 use std::borrow::Cow;
 
@@ -63,7 +64,7 @@ fn fields(region: &RegionReflection) -> [String; HEADINGS.len()] {
         format!("{:.3}", region.fit_rms_counts),
         region.model_fits().to_string(),
         region.separable.to_string(),
-        region.warnings.join("; "),
+        sentences(&region.warnings).join("; "),
     ]
 }
 

@@ -38,7 +38,7 @@ pub fn verdict(shown: &ResultSnapshot) -> Vec<Clause> {
     let regions = &shown.analysis.intrinsic.regions;
     if regions.is_empty() {
         let reason = shown.analysis.warnings.first();
-        let text = reason.map_or("no region was found", String::as_str).trim_end_matches('.').to_owned();
+        let text = reason.map_or_else(|| "no region was found".to_owned(), ToString::to_string);
         return vec![Clause { text, subject: ClauseSubject::Layer(Layer::Classes), is_bad: true }];
     }
     let misfits: Vec<&RegionReflection> = regions.iter().filter(|region| !region.model_fits()).collect();

@@ -3,6 +3,7 @@
 use crate::common::{analyze, assert_valid, fingerprint, picture};
 use dichroscope::analysis::{Analysis, Session};
 use dichroscope::baseline::{LEAST_MARKED_PX, MarkedSkewedT, NoSkewedT, no_skewed_t};
+use dichroscope::describe::sentences;
 use dichroscope::params::{IlluminantSetting, Method, Params, Setting};
 use dichroscope::photo::{LinearImage, ReadOptions, read};
 use dichroscope::raster::{Mask, Raster};
@@ -68,7 +69,7 @@ fn an_exact_skewed_t_gives_its_vectors_its_meeting_point_and_the_exact_split_of_
     let (image, area) = exact_scene();
     let analysis = by_hand(&image, &area, &params());
     assert_valid(&image, &analysis, "by hand");
-    assert_eq!(analysis.warnings.iter().filter(|warning| warning.contains("skewed T")).count(), 0);
+    assert_eq!(sentences(&analysis.warnings).iter().filter(|text| text.contains("skewed T")).count(), 0);
     let [region] = analysis.intrinsic.regions.as_slice() else { panic!("one region") };
     assert!(region.model_fits() && region.fit_rms_counts < 0.05, "{region:?}");
     assert!(angle_deg(region.body, BODY) < 0.05 && angle_deg(region.surface.unwrap(), LIGHT) < 0.1);
@@ -128,7 +129,7 @@ fn areas_without_a_skewed_t_are_told_in_a_sentence() {
             let analysis = by_hand(image, area, &params());
             assert_valid(image, &analysis, sentence);
             assert_eq!((why_not(&analysis), analysis.intrinsic.regions.len()), (Some(expected), regions));
-            let told = analysis.warnings.iter().any(|warning| warning.contains(sentence));
+            let told = sentences(&analysis.warnings).iter().any(|text| text.contains(sentence));
             assert!(told && analysis.illuminant.is_none(), "{:?}", analysis.warnings);
             assert_eq!(analysis.intrinsic.body, image.pixels, "nothing is split");
         };
@@ -149,7 +150,11 @@ fn areas_without_a_skewed_t_are_told_in_a_sentence() {
     });
     let analysis = by_hand(&two, &all, &params());
     assert_eq!(analysis.intrinsic.body, two.pixels, "two objects are not split: {:?}", analysis.warnings);
-    assert!(analysis.warnings.iter().any(|warning| warning.contains("skewed T")), "{:?}", analysis.warnings);
+    assert!(
+        sentences(&analysis.warnings).iter().any(|text| text.contains("skewed T")),
+        "{:?}",
+        analysis.warnings
+    );
 }
 
 #[test]
@@ -161,7 +166,7 @@ fn lines_that_are_nearly_parallel_are_not_split() {
     for id in [1, 2] {
         let analysis = by_hand(&image, &Arc::new(truth.labels.map(|&label| label == id)), &params());
         assert_eq!(why_not(&analysis), Some(NoSkewedT::Parallel), "{id}");
-        assert!(analysis.warnings.iter().any(|warning| warning.contains("less than 3\u{b0} apart")));
+        assert!(sentences(&analysis.warnings).iter().any(|text| text.contains("less than 3\u{b0} apart")));
         assert_eq!(analysis.intrinsic.body, image.pixels, "never worse than the photograph");
     }
 }
@@ -175,7 +180,7 @@ fn several_hues_do_not_hold_and_no_area_is_the_whole_picture() {
     });
     let analysis = analyze(&image, &params());
     assert_valid(&image, &analysis, "hues");
-    let said = analysis.warnings.join("; ");
+    let said = sentences(&analysis.warnings).join("; ");
     assert!(said.contains("no pixels were marked") && said.contains("skewed T"), "{said}");
     assert!(analysis.intrinsic.regions.iter().all(|region| !region.model_fits()));
     assert_eq!(analysis.intrinsic.body, image.pixels, "never worse than the photograph");

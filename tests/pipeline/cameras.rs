@@ -3,6 +3,7 @@
 use crate::common::{analyze, srgb};
 use crate::synthetic::{Random, Rendered, Scene};
 use dichroscope::analysis::{Analysis, Session};
+use dichroscope::describe::sentences;
 use dichroscope::params::Params;
 use dichroscope::photo::{CodingCause, LinearImage, ReadOptions, decode};
 use dichroscope::segment::LightBasis;
@@ -178,7 +179,7 @@ fn the_history_of_a_mixed_pixel_tells_why_its_surface_reflection_is_limited() {
 #[test]
 fn strong_compression_and_few_pixels_are_warned_of() {
     let warned = |image: &LinearImage, part: &str| {
-        analyze(image, &Params::default()).warnings.iter().any(|warning| warning.contains(part))
+        sentences(&analyze(image, &Params::default()).warnings).iter().any(|text| text.contains(part))
     };
     let rendered = balls().render().image;
     assert!(warned(&reread(&jpeg(&rendered, 40)), "compressed so strongly"));

@@ -2,7 +2,7 @@
 //! (`docs/case-study.md`).
 
 use crate::common::{analyze, scores_of};
-use dichroscope::analysis::Analysis;
+use dichroscope::analysis::{Analysis, RunWarning};
 use dichroscope::describe::Scores;
 use dichroscope::params::{Parameter, Params, Preset, Setting};
 use dichroscope::photo::{LinearImage, ReadOptions, read};
@@ -62,7 +62,7 @@ fn planes(analysis: &Analysis) -> usize {
 fn camera_noise_below_the_cameras_leaves_no_region_and_above_it_joins_objects() {
     let eight = Case::eight();
     let (low, _) = eight.with(&[(Parameter::CameraNoise, 1.0)]);
-    assert!(sizes(&low).is_empty() && low.warnings[0].starts_with("no linear area"), "{:?}", low.warnings);
+    assert!(sizes(&low).is_empty() && low.warnings[0] == RunWarning::NoLinearArea, "{:?}", low.warnings);
     let (high, scores) = eight.with(&[(Parameter::CameraNoise, 5.0)]);
     assert!(sizes(&high).len() == 7 && scores.ari < 0.9, "{:?}", sizes(&high));
     let (low, _) = Case::yellow().with(&[(Parameter::CameraNoise, 1.0)]);

@@ -3,6 +3,7 @@
 use crate::common::{METHODS, analyze, any_readings, assert_valid, faults, picture};
 use crate::synthetic::{Random, Scene};
 use dichroscope::analysis::{Analysis, Session};
+use dichroscope::describe::sentences;
 use dichroscope::params::{Method, Parameter, Params, Setting, Switch};
 use dichroscope::photo::LinearImage;
 use dichroscope::raster::{HypothesisId, RegionId};
@@ -118,7 +119,11 @@ fn a_picture_without_anything_says_why() {
                 analysis.intrinsic.regions
             );
             let says = if method == Method::ByHand { "neither dark nor clipped" } else { says };
-            assert!(analysis.warnings.iter().any(|w| w.contains(says)), "{name}: {:?}", analysis.warnings);
+            assert!(
+                sentences(&analysis.warnings).iter().any(|text| text.contains(says)),
+                "{name}: {:?}",
+                analysis.warnings
+            );
         }
     }
 }

@@ -3,13 +3,14 @@
 use super::{Describe, LineObjects, nothing};
 use crate::describe::Names;
 use crate::describe::names::count;
+use crate::describe::words::ambient_reason;
 use crate::trace::{Ambient, Meeting};
 use serde_json::json;
 
 impl Describe for Ambient {
     fn sentence(&self, _names: &Names) -> String {
         let counts = |counts: [f64; 3]| counts.map(|band| format!("{band:.1}")).join(", ");
-        let reason = self.verdict.reason();
+        let reason = ambient_reason(self.verdict);
         let Some(meeting) = self.meeting else {
             return match self.subtracted {
                 Some(given) => format!("ambient light of {} counts is subtracted: {reason}", counts(given)),

@@ -1,5 +1,6 @@
 //! The notes of the analysis over the picture, each of which can be dismissed.
 
+use crate::describe::sentences;
 use crate::gui::PanelContext;
 use crate::gui::theme::SMALL_PT;
 use crate::view::Origin;
@@ -24,14 +25,14 @@ impl DismissedNotes {
             *self = Self { of: Some(picture.origin.clone()), notes: Vec::new() };
         }
         let mut top = view.top() + 6.0;
-        for note in &shown.analysis.warnings {
-            if self.notes.contains(note) {
+        for note in sentences(&shown.analysis.warnings) {
+            if self.notes.contains(&note) {
                 continue;
             }
-            let (bottom, is_dismissed) = show_note(ui, painter, cx, view.with_min_y(top), note);
+            let (bottom, is_dismissed) = show_note(ui, painter, cx, view.with_min_y(top), &note);
             top = bottom + 4.0;
             if is_dismissed {
-                self.notes.push(note.clone());
+                self.notes.push(note);
             }
         }
     }

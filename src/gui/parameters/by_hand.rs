@@ -2,6 +2,7 @@
 
 use super::columns::{GAP_PT, NARROW_PT, ROW_PT, VALUE_PT, label};
 use crate::app::{Edit, Gesture};
+use crate::describe::ambient_reason;
 use crate::gui::theme::SMALL_PT;
 use crate::gui::{PanelContext, widgets};
 use crate::params::{AmbientSetting, IlluminantSetting, Method, Params};
@@ -171,7 +172,7 @@ fn ambient(ui: &mut Ui, cx: &mut PanelContext) {
         button.widget_info(|| {
             egui::WidgetInfo::selected(egui::accesskit::Role::CheckBox, true, auto, "ambient automatic")
         });
-        let why = found.map_or("", |ambient| ambient.verdict.reason());
+        let why = found.map_or("", |ambient| ambient_reason(ambient.verdict));
         if button.on_hover_text(format!("Found in the picture, or off. {why}")).clicked() {
             let next = if auto { AmbientSetting::Off } else { AmbientSetting::Auto };
             cx.send(Edit::SetAmbient(next, None));

@@ -2,6 +2,7 @@
 //! ground truth.
 
 use super::vector;
+use crate::describe::{ambient_reason, light_reason};
 use crate::gui::theme::{BODY_PT, SMALL_PT};
 use crate::gui::{PanelContext, widgets};
 use crate::segment::{Illuminant, LightBasis, LightFindings};
@@ -42,11 +43,11 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
             let is_wide = findings.interval_deg.is_some_and(|degrees| degrees >= WIDE_INTERVAL_DEG);
             let tone = if is_wide { cx.palette.warning } else { cx.palette.secondary };
             let from = RichText::new(basis_text(light, findings)).size(SMALL_PT).color(tone);
-            ui.label(from).on_hover_text(findings.reason());
+            ui.label(from).on_hover_text(light_reason(findings));
             distance_from_found(ui, cx, light, findings);
         } else {
             let is_sought = findings.basis != LightBasis::NotSought;
-            let text = format!("{}{}", if is_sought { "unknown: " } else { "" }, findings.reason());
+            let text = format!("{}{}", if is_sought { "unknown: " } else { "" }, light_reason(findings));
             ui.add(Label::new(&text).truncate().show_tooltip_when_elided(false)).on_hover_text(text);
         }
         second_lamp(ui, cx, findings);
@@ -107,7 +108,7 @@ fn ambient(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot) {
         let [r, g, b] = meeting.sd_counts;
         format!(" Standard deviations {r:.1}, {g:.1}, {b:.1} counts, from {} matte lines.", meeting.lines)
     });
-    let tip = format!("Light from everywhere (section 7.5): {}.{spread}", ambient.verdict.reason());
+    let tip = format!("Light from everywhere (section 7.5): {}.{spread}", ambient_reason(ambient.verdict));
     ui.label(RichText::new("ambient").color(cx.palette.secondary)).on_hover_text(&tip);
     let text = counts.map(|band| format!("{band:.1}")).join(" ");
     ui.label(format!("{text} counts")).on_hover_text(tip);

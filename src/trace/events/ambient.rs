@@ -76,27 +76,6 @@ impl AmbientVerdict {
             Self::DarkerPixels => "darker_pixels",
         }
     }
-
-    /// The verdict as a sentence.
-    pub const fn reason(self) -> &'static str {
-        match self {
-            Self::Off => "ambient light is off",
-            Self::NotEstimated => {
-                "the estimate of ambient light is the refinement ambient_light, which is off"
-            }
-            Self::Given => "it was given",
-            Self::Subtracted => "the matte lines meet there, significantly away from black",
-            Self::FewLines => {
-                "too few matte lines are known well enough: three, or two that clearly meet, are needed"
-            }
-            Self::Black => "the matte lines meet in black, as far as they can tell",
-            Self::Negative => {
-                "the matte lines meet in a color that no light has: inter-reflection, or ambient light that differs from place to place"
-            }
-            Self::NoMeeting => "the matte lines do not meet in one point",
-            Self::DarkerPixels => "some pixels are darker than the point where the matte lines meet",
-        }
-    }
 }
 
 impl EventData for Ambient {}

@@ -1,6 +1,7 @@
 //! Tests of the skewed T of marked pixels: the button, the key, the menu of the pixel, what the panels show, undo, and the method's button.
 
 use crate::window::{apply, click, item, marked, press, says, shown, state, tiny_window, undo};
+use dichroscope::analysis::RunWarning;
 use dichroscope::app::{Combine, Edit};
 use dichroscope::gui::Pane;
 use dichroscope::params::Method;
@@ -50,8 +51,7 @@ fn a_key_and_the_method_s_button_fit_it_and_without_marks_a_sentence_says_what_t
     click(&mut window, Role::Button, "by-hand");
     assert!(state(&window).document.area.is_some(), "the marked pixels are the area");
     apply(&mut window, Edit::RestrictTo(None));
-    let told =
-        shown(&window).analysis.warnings.iter().any(|warning| warning.starts_with("no pixels were marked"));
+    let told = shown(&window).analysis.warnings.contains(&RunWarning::NothingMarked);
     assert!(told, "{:?}", shown(&window).analysis.warnings);
 }
 

@@ -237,7 +237,7 @@ fn a_picture_without_regions_says_why() {
     let mut window = window();
     apply(&mut window, JobCommand::Open(plain("night.ppm", |_| [1, 1, 1])));
     assert!(shown(&window).analysis.intrinsic.regions.is_empty());
-    let reason = shown(&window).analysis.warnings[0].clone();
+    let reason = shown(&window).analysis.warnings[0].to_string();
     // The verdict begins with a capital letter, and is the only place that says so.
     assert!(says(&window, &reason[1..]), "{reason}");
 }

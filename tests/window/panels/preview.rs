@@ -3,7 +3,7 @@
 use crate::window::{
     SIZE, Window, apply, at, click, named, says, shown, size, state, tiny, with_state, words, zoom_in,
 };
-use dichroscope::analysis::{Analysis, Observer, Session};
+use dichroscope::analysis::{Analysis, Observer, RunWarning, Session};
 use dichroscope::app::{Application, Debugger, Edit, Executor, JobCommand, Preview, State, ViewCommand};
 use dichroscope::params::{Parameter, Params, Setting};
 use dichroscope::raster::{Blocks, PixelIndex, Raster};
@@ -73,12 +73,11 @@ fn panels_that_show_the_result_before_say_so() {
 
 #[test]
 fn a_note_over_the_picture_can_be_dismissed() {
-    let note = "the moon shines into the picture";
     let mut state_before = state_with_preview();
     state_before.preview = None;
     let before = state_before.newest.take().unwrap();
     let mut analysis = before.analysis.clone();
-    analysis.warnings = vec![note.to_owned()];
+    analysis.warnings = vec![RunWarning::SecondLampIdle];
     let picture = Arc::clone(&before.picture);
     let mut newest = ResultSnapshot::new(picture, before.params, analysis, before.region_colors.clone());
     newest.generation = state_before.generation;
