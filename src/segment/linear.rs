@@ -11,8 +11,9 @@ use super::classify::Windows;
 use super::input::AnalysisInput;
 use super::merge::Areas;
 use super::recorded_labels::{Pixels, RecordedLabels};
+use super::seed_areas::{SeedAreaRules, SeedAreas};
 use crate::color::{Cylinder, Line, Moments, RobustFitSettings};
-use crate::raster::{HypothesisId, PixelIndex, UNASSIGNED};
+use crate::raster::{HypothesisId, PixelIndex};
 use crate::trace::{
     CandidateSource, Class, Contest, GrowthBegan, HypothesisChosen, HypothesisPassedOver, LineRefitted,
     Measure, Pass, PassedOver, Recorder, SeedsPlaced,
@@ -37,17 +38,6 @@ impl Hypothesis {
     }
 }
 
-/// Which areas may become hypotheses.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct SeedAreaRules {
-    /// Fewest unclaimed pixels of an area.
-    pub min_area_px: usize,
-    /// Whether areas of class *point* count too; the axis of such a hypothesis is the line from black through the mean.
-    pub points: bool,
-    /// Whether the axis must pass black within the cylinder's radius, and growing must claim the minimal area.
-    pub through_black: bool,
-}
-
 /// Largest number of pixels that a line is fitted to, evenly chosen; the reading `every_pixel` has no such limit.
 const FIT_SAMPLES: usize = 4000;
 
@@ -64,7 +54,7 @@ pub fn linear<R: Recorder>(
     let mut seed_areas = SeedAreas::new(input, windows, areas, rules, recorded_labels);
     let mut rank = 0;
     while let Some(area) = seed_areas.largest(rules.min_area_px) {
-        let (pixels, colors) = seed_areas.unclaimed(input, area, recorded_labels);
+        let pixels: Vec<u32> = seed_areas.free_pixels(input, area, recorded_labels).collect();
         seed_areas.mark_examined(area);
         if input.stopped() {
             return;
@@ -84,14 +74,14 @@ pub fn linear<R: Recorder>(
             pass_over(recorded_labels, PassedOver::NoNumberLeft);
             continue;
         }
-        let Some(line) = hypothesis_line(input, areas.classes[area], &colors) else {
-            pass_over(recorded_labels, PassedOver::NoExtent);
-            continue;
-        };
-        if rules.through_black && line.foot().norm() > input.used.radius_counts() {
-            pass_over(recorded_labels, PassedOver::FarFromBlack);
-            continue;
-        }
+        let line =
+            match hypothesis_line(input, areas.classes[area], &sample(input, &pixels), rules.through_black) {
+                Ok(line) => line,
+                Err(reason) => {
+                    pass_over(recorded_labels, reason);
+                    continue;
+                }
+            };
         let hypothesis = HypothesisId::from_index(hypotheses.len());
         if R::KEEPS {
             recorded_labels.recorder.record(HypothesisChosen {
@@ -122,9 +112,22 @@ pub fn linear<R: Recorder>(
     }
 }
 
-/// The matte line of a hypothesis: mean and first eigenvector of the colors of an area's unclaimed pixels, fitted robustly
-/// with `robust_lines`. `None` for colors without extent.
-fn hypothesis_line(input: &AnalysisInput, class: Option<Class>, colors: &[[f32; 3]]) -> Option<Line> {
+/// The matte line of a hypothesis from the colors of an area's unclaimed pixels, or why the area makes no hypothesis. `through_black`: whether
+/// the line must pass black within the cylinder's radius.
+fn hypothesis_line(
+    input: &AnalysisInput,
+    class: Option<Class>,
+    colors: &[[f32; 3]],
+    through_black: bool,
+) -> Result<Line, PassedOver> {
+    let line = fitted_line(input, class, colors).ok_or(PassedOver::NoExtent)?;
+    let is_far = through_black && line.foot().norm() > input.used.radius_counts();
+    if is_far { Err(PassedOver::FarFromBlack) } else { Ok(line) }
+}
+
+/// Mean and first eigenvector of colors, fitted robustly with `robust_lines`; of an area of class *point*, the line from black through the
+/// mean. `None` for colors without extent.
+fn fitted_line(input: &AnalysisInput, class: Option<Class>, colors: &[[f32; 3]]) -> Option<Line> {
     let moments: Moments = colors.iter().copied().collect();
     if class == Some(Class::Point) {
         let mean = moments.mean();
@@ -253,109 +256,6 @@ fn grow_cylinder<R: Recorder>(
             taken
         },
     );
-}
-
-/// The areas that may still become hypotheses; every list has one entry per area.
-struct SeedAreas<'a> {
-    areas: &'a Areas,
-    windows: &'a Windows,
-    /// Number of pixels that no region has claimed; 0 for an examined area.
-    unclaimed: Vec<u32>,
-    /// Windows of the area.
-    members: Vec<Vec<u32>>,
-    /// Whether the area has been examined.
-    examined: Vec<bool>,
-}
-
-impl<'a> SeedAreas<'a> {
-    fn new<R: Recorder>(
-        input: &AnalysisInput,
-        windows: &'a Windows,
-        areas: &'a Areas,
-        rules: &SeedAreaRules,
-        recorded_labels: &RecordedLabels<R>,
-    ) -> Self {
-        let mut unclaimed = vec![0u32; areas.classes.len()];
-        let mut members = vec![Vec::new(); areas.classes.len()];
-        for (window, &area) in areas.of_window.as_slice().iter().enumerate() {
-            let class = areas.classes[area as usize];
-            if class == Some(Class::Line) || (rules.points && class == Some(Class::Point)) {
-                members[area as usize].push(window as u32);
-                unclaimed[area as usize] += windows.moments[window].n as u32;
-            }
-        }
-        let examined = vec![false; members.len()];
-        let mut seed_areas = Self { areas, windows, unclaimed, members, examined };
-        // The moments of windows count valid pixels, of which fewer may be claimable and unassigned.
-        for area in 0..seed_areas.members.len() {
-            if seed_areas.unclaimed[area] as usize >= rules.min_area_px {
-                seed_areas.unclaimed[area] =
-                    seed_areas.free_pixels(input, area, recorded_labels).count() as u32;
-            }
-        }
-        seed_areas
-    }
-
-    /// The area with the most unclaimed pixels, the first one of equals; `None` where it is smaller than `min_area_px`.
-    fn largest(&self, min_area_px: usize) -> Option<usize> {
-        let best = (0..self.unclaimed.len()).rev().max_by_key(|&area| self.unclaimed[area])?;
-        (self.unclaimed[best] as usize >= min_area_px.max(1)).then_some(best)
-    }
-
-    /// The areas that were never examined, each with its number of unclaimed pixels and the reason: other regions consumed the
-    /// area, or the area never had `least` valid pixels.
-    fn never_examined(&self, least: u32) -> impl Iterator<Item = (u32, u32, PassedOver)> + '_ {
-        let left =
-            (0..self.members.len()).filter(|&area| !self.members[area].is_empty() && !self.examined[area]);
-        left.map(move |area| {
-            let was_large = self.areas.moments[area].n >= f64::from(least);
-            let reason = if was_large { PassedOver::Consumed } else { PassedOver::TooSmall };
-            (area as u32, self.unclaimed[area], reason)
-        })
-    }
-
-    /// The claimable pixels of an area that belong to no region.
-    fn free_pixels<'b, R: Recorder>(
-        &'b self,
-        input: &'b AnalysisInput,
-        area: usize,
-        recorded_labels: &'b RecordedLabels<R>,
-    ) -> impl Iterator<Item = u32> + 'b {
-        let (width, height) = (input.pixels.width(), input.pixels.height());
-        let (size, columns) = (self.windows.size_px, self.windows.classes.width());
-        self.members[area].iter().flat_map(move |&window| {
-            let (left, top) = (window as usize % columns * size, window as usize / columns * size);
-            (top..(top + size).min(height))
-                .flat_map(move |y| y * width + left..y * width + (left + size).min(width))
-                .filter(|&pixel| recorded_labels.labels[pixel] == UNASSIGNED && input.claimable(pixel))
-                .map(|pixel| pixel as u32)
-        })
-    }
-
-    /// All free pixels of an area, and the colors of at most [`FIT_SAMPLES`] of them.
-    fn unclaimed<R: Recorder>(
-        &self,
-        input: &AnalysisInput,
-        area: usize,
-        recorded_labels: &RecordedLabels<R>,
-    ) -> (Vec<u32>, Vec<[f32; 3]>) {
-        let pixels: Vec<u32> = self.free_pixels(input, area, recorded_labels).collect();
-        let colors = sample(input, &pixels);
-        (pixels, colors)
-    }
-
-    fn mark_examined(&mut self, area: usize) {
-        self.examined[area] = true;
-        self.unclaimed[area] = 0;
-    }
-
-    /// Subtracts the pixels that a region has claimed from the areas' numbers of unclaimed pixels.
-    fn subtract(&mut self, claimed: &[u32], windows: &Windows, width: usize) {
-        for &pixel in claimed {
-            let area = self.areas.of_window[windows.window_of(pixel as usize, width)] as usize;
-            self.unclaimed[area] = self.unclaimed[area].saturating_sub(1);
-        }
-    }
 }
 
 /// Length of a region's matte line from black, counts: the 99.5 % quantile of C·d (d the line's direction) over the pixels on

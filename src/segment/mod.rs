@@ -27,8 +27,10 @@ mod plane_light;
 mod recorded_labels;
 mod regions;
 mod second_lamp;
+mod seed_areas;
 #[cfg(test)]
 pub(crate) mod testing;
+mod texture;
 mod two_lights;
 mod unite;
 mod vote_light;

@@ -49,6 +49,21 @@ struct Bounds {
     cylinders: Vec<Cylinder>,
 }
 
+impl Bounds {
+    /// The contest for a color between a slice and that of the holder; none for a holder without a slice.
+    fn by_planes(&self, slice: &Slice, holder: HypothesisId, color: [f32; 3]) -> Option<Contest> {
+        let holder = self.slices[holder.index()].as_ref()?.distance(color);
+        Some(Contest { measure: Measure::Plane, challenger: slice.distance(color), holder })
+    }
+
+    /// The contest for a color between the axes of the cylinders of two regions.
+    fn by_axes(&self, challenger: HypothesisId, holder: HypothesisId, color: [f32; 3]) -> Contest {
+        let [challenger, holder] =
+            [challenger, holder].map(|id| self.cylinders[id.index()].distance2(color).sqrt());
+        Contest { measure: Measure::Axis, challenger, holder }
+    }
+}
+
 impl<'a, 's, R: Recorder> PlanarState<'a, 's, R> {
     /// The state before any slice has grown: the matte regions, with the length of each matte line (counts) and the
     /// highlight line of each region.
@@ -217,20 +232,10 @@ impl<'a, 's, R: Recorder> PlanarState<'a, 's, R> {
                     }
                     return true;
                 }
-                let (measure, own_distance, holder_distance) = match &bounds.slices[holder.index()] {
-                    Some(holder_slice) if !is_foreign_matte => {
-                        (Measure::Plane, slice.distance(color), holder_slice.distance(color))
-                    }
-                    _ => {
-                        let holder_cylinder = &bounds.cylinders[holder.index()];
-                        let distances =
-                            [&own_cylinder, holder_cylinder].map(|cylinder| cylinder.distance2(color).sqrt());
-                        (Measure::Axis, distances[0], distances[1])
-                    }
-                };
-                let taken = own_distance < holder_distance;
+                let contest = if is_foreign_matte { None } else { bounds.by_planes(slice, holder, color) };
+                let contest = contest.unwrap_or_else(|| bounds.by_axes(id, holder, color));
+                let taken = contest.challenger < contest.holder;
                 if R::KEEPS {
-                    let contest = Contest { measure, challenger: own_distance, holder: holder_distance };
                     recorder.contest(PixelIndex::from_index(pixel), holder, id, taken, contest);
                 }
                 taken
