@@ -18,8 +18,8 @@ use crate::baseline::{
 use crate::intrinsic::{WorkingSplit, split};
 use crate::params::{Baseline, Params, Rules, UsedParams};
 use crate::segment::{
-    AnalysisInput, FinalRegions, MatteRegions, PlanarRegions, Windows, clipping_regions, final_regions,
-    matte_regions, planar_regions,
+    AnalysisInput, Areas, FinalRegions, MatteRegions, PlanarRegions, Windows, clipping_regions,
+    final_regions, matte_regions, planar_regions,
 };
 use crate::trace::{Recorder, StageTrace, Trace};
 use std::sync::Arc;
@@ -116,11 +116,7 @@ impl Stages {
         let matte = self.linear.get(Stage::Linear, before, observer, |observer, recorder: &mut R| {
             let stop = || observer.cancelled();
             let input = input.stopped_by(&stop);
-            Arc::new(match baseline {
-                None => matte_regions(&input, windows_made, areas, recorder),
-                Some(Baseline::ByHand) => marked_matte_region(&input, recorder),
-                Some(baseline) => baseline_regions(&input, baseline, recorder),
-            })
+            Arc::new(linear_output(&input, baseline, windows_made, areas, recorder))
         })?;
         tell(observer, StageOutput::Matte(Arc::clone(&matte.value)));
         let before = key(Stage::Planar, matte.number);
@@ -129,21 +125,14 @@ impl Stages {
             let input = input.stopped_by(&stop);
             Arc::new(match baseline {
                 None => planar_regions(&input, windows_made, areas, &matte.value, recorder),
-                Some(Baseline::ByHand) => marked_planar_region(&input, &matte.value, recorder),
-                Some(_) => regions_without_planes(&input, &matte.value),
+                Some(baseline) => planar_baseline(&input, baseline, &matte.value, recorder),
             })
         })?;
         tell(observer, StageOutput::Planar(Arc::clone(&planar.value)));
         let before = key(Stage::Clipping, planar.number);
         let finals = self.clipping.get(Stage::Clipping, before, observer, |observer, recorder: &mut R| {
             let stop = || observer.cancelled();
-            let input = input.stopped_by(&stop);
-            let labels = match baseline {
-                None => clipping_regions(&input, &planar.value, recorder),
-                Some(Baseline::ByHand) => marked_region_with_distorted(&input, &planar.value, recorder),
-                Some(_) => planar.value.labels.clone(),
-            };
-            Arc::new(final_regions(&input, labels, &planar.value, recorder))
+            Arc::new(clipping_output(&input.stopped_by(&stop), baseline, &planar.value, recorder))
         })?;
         tell(observer, StageOutput::Finals(Arc::clone(&finals.value)));
         observer.started(Stage::Split);
@@ -189,6 +178,49 @@ impl Stages {
         observer.made(StageOutput::Masks { masks: Arc::clone(&prepared.masks), used });
         Ok((prepared, used))
     }
+}
+
+/// The output of the linear stage: matte regions, or the regions of an earlier method.
+fn linear_output<R: Recorder>(
+    input: &AnalysisInput,
+    baseline: Option<&Baseline>,
+    windows: &Windows,
+    areas: &Areas,
+    recorder: &mut R,
+) -> MatteRegions {
+    match baseline {
+        None => matte_regions(input, windows, areas, recorder),
+        Some(Baseline::ByHand) => marked_matte_region(input, recorder),
+        Some(baseline) => baseline_regions(input, baseline, recorder),
+    }
+}
+
+/// The output of the planar stage of an earlier method: the skewed T of the marked pixels, or regions without planes.
+fn planar_baseline<R: Recorder>(
+    input: &AnalysisInput,
+    baseline: &Baseline,
+    matte: &MatteRegions,
+    recorder: &mut R,
+) -> PlanarRegions {
+    match baseline {
+        Baseline::ByHand => marked_planar_region(input, matte, recorder),
+        _ => regions_without_planes(input, matte),
+    }
+}
+
+/// The output of the clipping stage. The earlier methods that find regions alone have no clipping stage.
+fn clipping_output<R: Recorder>(
+    input: &AnalysisInput,
+    baseline: Option<&Baseline>,
+    planar: &PlanarRegions,
+    recorder: &mut R,
+) -> FinalRegions {
+    let labels = match baseline {
+        None => clipping_regions(input, planar, recorder),
+        Some(Baseline::ByHand) => marked_region_with_distorted(input, planar, recorder),
+        Some(_) => planar.labels.clone(),
+    };
+    final_regions(input, labels, planar, recorder)
 }
 
 /// The working picture, and what is done with it.

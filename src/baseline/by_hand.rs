@@ -82,6 +82,17 @@ pub fn marked_matte_region<R: Recorder>(input: &AnalysisInput, recorder: &mut R)
     MatteRegions { labels: recorded_labels.labels, hypotheses: vec![hypothesis] }
 }
 
+/// The output of the planar stage where no line fits the marked pixels: no region, and the light that was given.
+fn no_planar_region(input: &AnalysisInput, labels: LabelMap) -> PlanarRegions {
+    PlanarRegions {
+        labels,
+        hypotheses: Vec::new(),
+        illuminant: input.used.illuminant.map(given_light),
+        light: input.used.illuminant.map_or_else(no_light, LightFindings::given),
+        second_lamp_mask: None,
+    }
+}
+
 /// The region of all usable marked pixels, with its skewed T. The direction of its own highlight line is the light, unless a light was given.
 pub fn marked_planar_region<R: Recorder>(
     input: &AnalysisInput,
@@ -90,15 +101,7 @@ pub fn marked_planar_region<R: Recorder>(
 ) -> PlanarRegions {
     let mut recorded_labels = RecordedLabels::new(matte.labels.clone(), recorder);
     let Some(hypothesis) = matte.hypotheses.first() else {
-        let light = input.used.illuminant.map_or_else(no_light, LightFindings::given);
-        let illuminant = input.used.illuminant.map(given_light);
-        return PlanarRegions {
-            labels: recorded_labels.labels,
-            hypotheses: Vec::new(),
-            illuminant,
-            light,
-            second_lamp_mask: None,
-        };
+        return no_planar_region(input, recorded_labels.labels);
     };
     recorded_labels.begin(Pass::Candidates);
     let members = Members::of(&matte.labels, 1);

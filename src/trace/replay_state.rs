@@ -4,9 +4,9 @@
 
 use super::timeline::EventId;
 use super::{
-    Absorbed, CandidateChosen, Class, ComponentSplit, Dropped, Event, HypothesisPassedOver, IlluminantGiven,
-    MarkedCluster, MarkedLineFitted, MergeTried, PassedOver, PatchMade, RegionsMerged, Renumbered, SliceMade,
-    Trace, VectorsFitted, WindowClassified, WindowsLaid,
+    Absorbed, CandidateChosen, Class, ComponentSplit, Dropped, Event, HypothesisChosen, HypothesisPassedOver,
+    IlluminantGiven, MarkedCluster, MarkedLineFitted, MergeTried, PassedOver, PatchMade, RegionsMerged,
+    Renumbered, SliceMade, Trace, VectorsFitted, WindowClassified, WindowsLaid,
 };
 use crate::color::{Cylinder, Line};
 use crate::raster::{HypothesisId, Raster, RegionId};
@@ -113,6 +113,17 @@ pub enum End {
 }
 
 impl Hypothesis {
+    /// A hypothesis that starts from an area, with its first matte line.
+    fn of_area(chosen: &HypothesisChosen, id: EventId) -> Self {
+        let HypothesisChosen { area, radius, line, .. } = *chosen;
+        Self { area: Some(area), radius, lines: vec![line], ..Self::of_patch(None, id) }
+    }
+
+    /// The hypothesis of a part that is separated from this one, which is `whole`.
+    fn part(&self, whole: HypothesisId, id: EventId) -> Self {
+        Self { area: None, parent: Some(whole), ends: Vec::new(), events: vec![id], ..self.clone() }
+    }
+
     /// A region of an earlier method, which has no line; `parent`: the region that it is a part of.
     fn of_patch(parent: Option<HypothesisId>, id: EventId) -> Self {
         Self {
@@ -230,28 +241,14 @@ impl ReplayState {
             Event::MergeTried(MergeTried { into, from, class, union, .. }) if class == union => {
                 self.join(*from, *into);
             }
-            Event::HypothesisChosen(chosen) => self.hypotheses.push(Hypothesis {
-                area: Some(chosen.area),
-                parent: None,
-                radius: chosen.radius,
-                lines: vec![chosen.line],
-                slices: Vec::new(),
-                highlights: Vec::new(),
-                ends: Vec::new(),
-                events: vec![id],
-            }),
+            Event::HypothesisChosen(chosen) => self.hypotheses.push(Hypothesis::of_area(chosen, id)),
             Event::PatchMade(PatchMade { of, .. }) => self.hypotheses.push(Hypothesis::of_patch(*of, id)),
             Event::HistogramsSearched(searched) if searched.chosen().is_none() => {
                 self.tell(searched.hypothesis, id);
             }
             Event::MarkedLineFitted(fitted) => self.take_marked_line(fitted, id),
             Event::ComponentSplit(ComponentSplit { hypothesis, .. }) => {
-                let mut part = self.of(*hypothesis).cloned();
-                if let Some(part) = &mut part {
-                    (part.area, part.parent) = (None, Some(*hypothesis));
-                    part.ends.clear();
-                    part.events = vec![id];
-                }
+                let part = self.of(*hypothesis).map(|whole| whole.part(*hypothesis, id));
                 self.hypotheses.extend(part);
             }
             Event::LineRefitted(refitted) => {

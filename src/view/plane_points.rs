@@ -226,7 +226,18 @@ fn points(
             [body, surface]
         })
         .collect();
-    let grid = Grid::new(&amounts);
+    cell_means(&pixels, &amounts, colors, kinds)
+}
+
+/// One point for each cell of the plane that contains pixels of one kind: the mean of these pixels. The cells are as small as the largest number
+/// of points allows. `amounts`: m_b and m_s of the region's `pixels`; `colors` and `kinds` are those of all pixels of the picture.
+fn cell_means(
+    pixels: &[u32],
+    amounts: &[[f32; 2]],
+    colors: &[Point],
+    kinds: &[PixelKind],
+) -> Vec<PlanePixel> {
+    let grid = Grid::new(amounts);
     let cell_of = |i: usize| grid.cell(amounts[i], kinds[pixels[i] as usize]);
     let mut taken = vec![false; CELLS * CELLS * KINDS];
     for i in 0..pixels.len() {

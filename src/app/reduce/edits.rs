@@ -29,17 +29,7 @@ pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
         Edit::SetParameter(parameter, setting, gesture) => {
             edit_params(state, gesture, |params| *params.slot(parameter) = setting)
         }
-        Edit::SetMethod(method) => {
-            let area = &state.document.area;
-            match state.document.selection.marked.clone().filter(|_| area.is_none()) {
-                // The method by hand has no use for the whole picture where pixels are marked.
-                Some(marked) if method == Method::ByHand => fit_skewed_t(state, marked),
-                _ => {
-                    tell_of_lost_lamp(state, method);
-                    edit_params(state, None, |params| *params = with_method(params, method))
-                }
-            }
-        }
+        Edit::SetMethod(method) => set_method(state, method),
         Edit::SetSwitch(switch, on) => {
             edit_params(state, None, |params| params.refinements_mut().set(switch, on))
         }
@@ -65,17 +55,7 @@ pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
             selection.marked = combined_marks(selection.marked.take(), mask, combine);
             update_active_mark(selection, size);
         }),
-        Edit::InvertMarked => {
-            let Some(size) = state.picture.as_ref().map(|picture| picture.size()) else { return Vec::new() };
-            edit(state, None, |document| {
-                let marked = &mut document.selection.marked;
-                *marked = match marked.take() {
-                    Some(mask) => some_if_any(mask.map(|&on| !on)),
-                    None => Some(Arc::new(Mask::filled(size.0, size.1, true))),
-                };
-                update_active_mark(&mut document.selection, size);
-            })
-        }
+        Edit::InvertMarked => invert_marked(state),
         Edit::NamedMark(change) => {
             edit(state, None, |document| edit_named_marks(&mut document.selection, change))
         }
@@ -88,6 +68,32 @@ pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
             })
         }
     }
+}
+
+/// Changes the method. The method by hand is fitted to the marked pixels, where there are any and no area is set.
+fn set_method(state: &mut State, method: Method) -> Vec<Effect> {
+    let area = &state.document.area;
+    match state.document.selection.marked.clone().filter(|_| area.is_none()) {
+        // The method by hand has no use for the whole picture where pixels are marked.
+        Some(marked) if method == Method::ByHand => fit_skewed_t(state, marked),
+        _ => {
+            tell_of_lost_lamp(state, method);
+            edit_params(state, None, |params| *params = with_method(params, method))
+        }
+    }
+}
+
+/// Marks the pixels that are not marked, and no others.
+fn invert_marked(state: &mut State) -> Vec<Effect> {
+    let Some(size) = state.picture.as_ref().map(|picture| picture.size()) else { return Vec::new() };
+    edit(state, None, |document| {
+        let marked = &mut document.selection.marked;
+        *marked = match marked.take() {
+            Some(mask) => some_if_any(mask.map(|&on| !on)),
+            None => Some(Arc::new(Mask::filled(size.0, size.1, true))),
+        };
+        update_active_mark(&mut document.selection, size);
+    })
 }
 
 /// Changes the parameters as a step of the history; parameters that are not valid change nothing.

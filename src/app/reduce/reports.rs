@@ -61,12 +61,12 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
             state.notify(Severity::Error, reason);
         }
         Report::Panicked { work, reason } => return end_panicked(state, work, &reason),
-        Report::Rescued(Ok(path)) => {
-            let text = format!("the workspace was saved to {}", path.display());
+        Report::Rescued(outcome) => {
+            let text = match outcome {
+                Ok(path) => format!("the workspace was saved to {}", path.display()),
+                Err(reason) => format!("the workspace was not saved: {reason}"),
+            };
             state.notify(Severity::Warning, text);
-        }
-        Report::Rescued(Err(reason)) => {
-            state.notify(Severity::Warning, format!("the workspace was not saved: {reason}"));
         }
         Report::Progress { generation, stage } => {
             if let Some(job) = state.jobs.analysis.as_mut().filter(|_| generation == state.generation) {
@@ -81,19 +81,22 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
                 job.files = Some((done, total));
             }
         }
-        Report::Exported { outcome, workspace } => {
-            state.jobs.export = None;
-            match outcome {
-                Ok(text) => {
-                    state.workspace_path = workspace.or(state.workspace_path.take());
-                    state.notify(Severity::Done, text);
-                }
-                Err(reason) => state.notify(Severity::Error, reason),
-            }
-        }
+        Report::Exported { outcome, workspace } => end_export(state, outcome, workspace),
         Report::WhatIf(request, progress) => take_progress(state, request, progress),
     }
     Vec::new()
+}
+
+/// Ends an export. `workspace`: where the export was a workspace, which is from now on the one that is saved to.
+fn end_export(state: &mut State, outcome: Result<String, String>, workspace: Option<PathBuf>) {
+    state.jobs.export = None;
+    match outcome {
+        Ok(text) => {
+            state.workspace_path = workspace.or(state.workspace_path.take());
+            state.notify(Severity::Done, text);
+        }
+        Err(reason) => state.notify(Severity::Error, reason),
+    }
 }
 
 /// Ends the job of a worker that panicked, and asks for the workspace to be saved.
@@ -214,14 +217,19 @@ fn open_together(
     effects
 }
 
-/// Shows a photograph that was read, analyzes it, and reads the pictures of another program of it, for the image view to show.
-fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: &ElsewherePaths) -> Vec<Effect> {
-    state.jobs.reading = None;
-    if let Some(path) = picture.origin.path() {
+/// Puts the file of a photograph first in the list of recent photographs.
+fn remember(state: &mut State, origin: &Origin) {
+    if let Some(path) = origin.path() {
         state.recent.retain(|known| known != path);
         state.recent.insert(0, path.to_path_buf());
         state.recent.truncate(MOST_RECENT);
     }
+}
+
+/// Shows a photograph that was read, analyzes it, and reads the pictures of another program of it, for the image view to show.
+fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: &ElsewherePaths) -> Vec<Effect> {
+    state.jobs.reading = None;
+    remember(state, &picture.origin);
     let warnings =
         picture.photo.warnings.iter().map(|warning| format!("{}: {warning}", picture.origin.name()));
     let warnings: Vec<String> = warnings.collect();

@@ -7,8 +7,8 @@ use super::{Names, count, ordinal, percent, won};
 use crate::color::Trial;
 use crate::reflection::{SliceBound, SliceMiss};
 use crate::trace::{
-    Barrier, BorderLimit, Class, HistoryEntry, HistoryKind, MarkedCluster, MaskVerdict, MergeStory,
-    PixelKind, Reach, Release, SplitStory, WindowStory,
+    Barrier, BorderLimit, Class, CodeInterval, HistoryEntry, HistoryKind, MarkedCluster, MaskVerdict,
+    MergeStory, PixelKind, Reach, Release, SplitStory, WindowStory,
 };
 
 /// History entries that say nearly the same, as one.
@@ -137,27 +137,10 @@ impl Names {
                 let of = of.map_or_else(|| "the picture".to_owned(), |of| self.hypothesis(of));
                 let size = count(*pixels, "pixel");
                 let part = format!("{}, a part of {of} ({size})", self.hypothesis(*hypothesis));
-                match interval {
-                    None => format!("it belongs to {part}"),
-                    Some(interval) if (interval.low..=interval.high).contains(code) => {
-                        let (name, codes) = (interval.feature.name(), interval_text(*interval));
-                        format!("its {name} {code} puts it into {part}: {codes}")
-                    }
-                    Some(interval) => {
-                        let (name, codes) = (interval.feature.name(), interval_text(*interval));
-                        format!(
-                            "its {name} is {code}, but its patch is small and absorbed by {part}: {codes}"
-                        )
-                    }
-                }
+                patched(&part, *interval, *code)
             }
             HistoryKind::Marked { hypothesis, cluster, distance } => {
-                let what = match cluster {
-                    MarkedCluster::Matte => "it is nearer to the matte line",
-                    MarkedCluster::Highlight => "it is not nearer to the matte line",
-                    _ => "it is clipped or bloomed, and no line is fitted to it",
-                };
-                let of = self.hypothesis(*hypothesis);
+                let (of, what) = (self.hypothesis(*hypothesis), side_of_matte_line(*cluster));
                 format!("it was marked and belongs to {of}: {what}, {distance:.1} counts from the matte line")
             }
             HistoryKind::Numbered { hypothesis, region: None } => {
@@ -184,6 +167,26 @@ impl Names {
             ),
             Release::Dropped { pixels } => format!("too small to keep, {}", count(pixels, "pixel")),
         }
+    }
+}
+
+/// The sentence of a pixel's patch. `part`: the hypothesis, and what it is a part of. `code`: the pixel's code of the interval's feature.
+fn patched(part: &str, interval: Option<CodeInterval>, code: u8) -> String {
+    let Some(interval) = interval else { return format!("it belongs to {part}") };
+    let (name, codes) = (interval.feature.name(), interval_text(interval));
+    if (interval.low..=interval.high).contains(&code) {
+        format!("its {name} {code} puts it into {part}: {codes}")
+    } else {
+        format!("its {name} is {code}, but its patch is small and absorbed by {part}: {codes}")
+    }
+}
+
+/// On which side of the matte line a marked pixel lies, a clause.
+const fn side_of_matte_line(cluster: MarkedCluster) -> &'static str {
+    match cluster {
+        MarkedCluster::Matte => "it is nearer to the matte line",
+        MarkedCluster::Highlight => "it is not nearer to the matte line",
+        _ => "it is clipped or bloomed, and no line is fitted to it",
     }
 }
 

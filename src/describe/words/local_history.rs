@@ -8,75 +8,98 @@ const LEAST_TURN_DEG: f32 = 0.05;
 
 /// The sentence of the figures by which a pixel was judged.
 pub(super) fn surroundings(story: &LocalStory) -> String {
-    let LocalStory { mean, chroma, excess, noise, variation, odds, weight, limits, surface, .. } = story;
-    let restored = story.restored.map_or_else(String::new, |RestoredBand { band, value, .. }| {
-        let name = ["red", "green", "blue"][usize::from(band)];
-        format!("its {name} alone is clipped, and is {value:.1} counts by the other two bands and the hue around; ")
-    });
-    let seen =
-        format!("{restored}a {mean:.1} and c {chroma:.1} counts (mean and chromatic part under the light)");
-    if story.fate == LocalFate::Clipped {
+    let LocalStory { excess, noise, variation, weight, limits, fate, body, .. } = story;
+    let seen = seen(story);
+    if *fate == LocalFate::Clipped {
         return format!(
             "{seen}, but it is clipped: only the ring around its blob can tell what of it is highlight"
         );
     }
-    let turned = if story.turn_deg >= LEAST_TURN_DEG {
-        format!(
-            "; the chromaticity of its body is moved by {:.1}\u{b0} towards that of the pixels around",
-            story.turn_deg
-        )
-    } else {
-        String::new()
-    };
-    let follows = match (*surface > 0.0, *weight > 0.0) {
-        (true, true) => {
-            format!(": surface is {surface:.1} counts, smooth but for the edges of the picture{turned}")
-        }
-        (true, false) => format!("; by the pixels beside it surface is {surface:.1} counts{turned}"),
-        (false, _) => String::new(),
-    };
-    let Some([ratio, median]) = story.ratios.filter(|_| story.fate != LocalFate::Gray) else {
-        let why = match story.fate {
-            LocalFate::Gray if *chroma <= limits.chroma => {
-                format!("it is too gray to have a hue (c at most {:.1})", limits.chroma)
-            }
-            LocalFate::Gray => format!("it is too dark to have a hue (a at most {:.1})", limits.mean),
-            _ => "no pixel of the picture has its hue".to_owned(),
-        };
+    let follows = follows(story);
+    let Some([ratio, median]) = story.ratios.filter(|_| *fate != LocalFate::Gray) else {
         return format!(
-            "{seen}: {why}, so that its own color does not tell how much of it is highlight{follows}"
+            "{seen}: {}, so that its own color does not tell how much of it is highlight{follows}",
+            without_hue(story)
         );
     };
     let around = format!("{seen}; around it its hue has \u{3ba} = a/c {ratio:.2} (median {median:.2})");
-    let body = story.body;
-    if story.fate == LocalFate::Faint {
+    if *fate == LocalFate::Faint {
         return format!(
             "{around}: \u{3ba}c = {body:.1} counts are body, and it is hardly paler: ms = {excess:.1} counts, noise up to {noise:.1}{follows}"
         );
     }
     let paler = format!("{around}: \u{3ba}c = {body:.1} counts are body, ms = {excess:.1} counts too many");
-    if story.fate == LocalFate::Weak {
+    if *fate == LocalFate::Weak {
         return format!("{paler}, no more than its hue varies ({variation:.1}){follows}");
     }
-    if story.fate == LocalFate::Pale {
+    if *fate == LocalFate::Pale {
         let Ramp { start, end } = limits.ratio;
         return format!(
             "{paler}, but its hue is nearly gray: \u{3ba} above {start} counts less, from {end} on nothing{follows}"
         );
     }
-    let Some(HighlightTerms { chroma, independence, brightness, edges }) = story.terms else {
+    let Some(terms) = &story.terms else {
         return format!("{paler}, more than its hue varies ({variation:.1}){follows}");
     };
-    let Ramp { start, end } = limits.odds;
-    let evidence = format!(
-        "log odds of a highlight {odds:+.1} (nothing counts up to {start}, all from {end} on), averaged around, of the picture {:+.1}; \
-         here chroma {chroma:+.1}, independence of the body {independence:+.1}, brightness {brightness:+.1}, edges {edges:+.1}",
-        story.picture_odds
-    );
-    if story.fate == LocalFate::Print {
+    let evidence = evidence(story, terms);
+    if *fate == LocalFate::Print {
         return format!("{paler}, but it looks like white print: {evidence}{follows}");
     }
     format!("{paler}; {evidence}; weight {weight:.2}{follows}")
+}
+
+/// The pixel's mean and chromatic part, and how its clipped band was restored.
+fn seen(story: &LocalStory) -> String {
+    let LocalStory { mean, chroma, .. } = story;
+    let restored = story.restored.map_or_else(String::new, |RestoredBand { band, value, .. }| {
+        let name = ["red", "green", "blue"][usize::from(band)];
+        format!("its {name} alone is clipped, and is {value:.1} counts by the other two bands and the hue around; ")
+    });
+    format!("{restored}a {mean:.1} and c {chroma:.1} counts (mean and chromatic part under the light)")
+}
+
+/// What follows for the pixel: its surface reflection, and how its chromaticity is moved; empty without surface reflection.
+fn follows(story: &LocalStory) -> String {
+    let LocalStory { surface, weight, turn_deg, .. } = story;
+    let has_surface = *surface > 0.0;
+    if !has_surface {
+        return String::new();
+    }
+    let turned = if *turn_deg >= LEAST_TURN_DEG {
+        format!(
+            "; the chromaticity of its body is moved by {turn_deg:.1}\u{b0} towards that of the pixels around"
+        )
+    } else {
+        String::new()
+    };
+    if *weight > 0.0 {
+        format!(": surface is {surface:.1} counts, smooth but for the edges of the picture{turned}")
+    } else {
+        format!("; by the pixels beside it surface is {surface:.1} counts{turned}")
+    }
+}
+
+/// Why no ratio of mean and chromatic part is known for the pixel's hue.
+fn without_hue(story: &LocalStory) -> String {
+    let limits = &story.limits;
+    match story.fate {
+        LocalFate::Gray if story.chroma <= limits.chroma => {
+            format!("it is too gray to have a hue (c at most {:.1})", limits.chroma)
+        }
+        LocalFate::Gray => format!("it is too dark to have a hue (a at most {:.1})", limits.mean),
+        _ => "no pixel of the picture has its hue".to_owned(),
+    }
+}
+
+/// The evidence for a highlight: the log odds, and the terms here.
+fn evidence(story: &LocalStory, terms: &HighlightTerms) -> String {
+    let Ramp { start, end } = story.limits.odds;
+    let HighlightTerms { chroma, independence, brightness, edges } = terms;
+    format!(
+        "log odds of a highlight {:+.1} (nothing counts up to {start}, all from {end} on), averaged around, of the picture {:+.1}; \
+         here chroma {chroma:+.1}, independence of the body {independence:+.1}, brightness {brightness:+.1}, edges {edges:+.1}",
+        story.odds, story.picture_odds
+    )
 }
 
 /// The sentence why the plane of a region is not used for a pixel.

@@ -31,6 +31,14 @@ pub struct Why {
     pub region: Option<(RegionId, Vec<WhySentence>)>,
 }
 
+impl WhySentence {
+    /// A sentence about a step of the trace.
+    fn of_step(trace: &Trace, step: usize, depth: usize, text: String) -> Self {
+        let stage = trace.stage_at(step).unwrap_or(Stage::Masks);
+        Self { step: Some(step), stage, depth, text }
+    }
+}
+
 /// The answers for a pixel, and for a hypothesis; without a hypothesis, for the region of the pixel.
 pub fn why(
     shown: &ResultSnapshot,
@@ -40,41 +48,15 @@ pub fn why(
     hypothesis: Option<HypothesisId>,
 ) -> Why {
     let names_in_sentences = Names::of(trace);
-    let stage = |step: usize| trace.stage_at(step).unwrap_or(Stage::Masks);
-    let sentence = |step: usize, depth: usize, text: String| WhySentence {
-        step: Some(step),
-        stage: stage(step),
-        depth,
-        text,
-    };
+    let sentence = |step: usize, depth: usize, text: String| WhySentence::of_step(trace, step, depth, text);
     let image = &shown.picture.photo.image;
-    let last_step = trace.len().saturating_sub(1);
-    let pixel = pixel.filter(|&pixel| pixel.index() < image.pixels.len()).map(|pixel| {
-        let history = condense(&shown.analysis.pixel_history(trace, pixel));
-        let place = shown.analysis.pixel_place(pixel);
-        let record = trace.second_look_at(pixel);
-        let at_full_resolution = place
-            .map(|place| sentence(last_step, 0, names_in_sentences.pixel_place(&place, record.is_some())));
-        let of_second_look = record.into_iter().flat_map(|record| {
-            let names = Names::of_second_look(record);
-            let history = condense(&record.pixel_history(pixel));
-            let said = history.iter().rev().map(|condensed| {
-                let text = repeated(names.second_look_entry(&condensed.last), condensed.times);
-                WhySentence { step: None, stage: condensed.last.stage, depth: 0, text }
-            });
-            said.collect::<Vec<_>>()
-        });
-        let sentences = history.iter().rev().map(|condensed| {
-            let text = repeated(names_in_sentences.history_entry(&condensed.last), condensed.times);
-            sentence(condensed.last.step, 0, text)
-        });
-        (pixel, at_full_resolution.into_iter().chain(of_second_look).chain(sentences).collect())
-    });
-    let of_pixel = || {
+    let pixel = pixel.filter(|&pixel| pixel.index() < image.pixels.len());
+    let pixel = pixel.map(|pixel| (pixel, of_pixel(shown, trace, &names_in_sentences, pixel)));
+    let hypothesis_of_pixel = || {
         let (pixel, _) = pixel.as_ref()?;
         names.hypotheses_of(RegionId::from_label(shown.labels()[pixel.index()])?).next()
     };
-    let subject = hypothesis.or_else(of_pixel);
+    let subject = hypothesis.or_else(hypothesis_of_pixel);
     let hypothesis = subject.and_then(|subject| {
         let sentences = names_in_sentences.story(&story(trace, subject)?);
         Some((subject, sentences.into_iter().map(|(step, text)| sentence(step, 0, text)).collect()))
@@ -92,6 +74,36 @@ pub fn why(
     };
     let region = region.or_else(of_second_look);
     Why { pixel, hypothesis, region }
+}
+
+/// What was decided about a pixel: at full resolution, in the second look, and about its working pixel, each newest first.
+fn of_pixel(
+    shown: &ResultSnapshot,
+    trace: &Arc<Trace>,
+    names: &Names,
+    pixel: PixelIndex,
+) -> Vec<WhySentence> {
+    let record = trace.second_look_at(pixel);
+    let last_step = trace.len().saturating_sub(1);
+    let at_full_resolution = shown
+        .analysis
+        .pixel_place(pixel)
+        .map(|place| WhySentence::of_step(trace, last_step, 0, names.pixel_place(&place, record.is_some())));
+    let of_second_look = record.into_iter().flat_map(|record| {
+        let names = Names::of_second_look(record);
+        let history = condense(&record.pixel_history(pixel));
+        let said = history.iter().rev().map(|condensed| {
+            let text = repeated(names.second_look_entry(&condensed.last), condensed.times);
+            WhySentence { step: None, stage: condensed.last.stage, depth: 0, text }
+        });
+        said.collect::<Vec<_>>()
+    });
+    let history = condense(&shown.analysis.pixel_history(trace, pixel));
+    let of_working_pixel = history.iter().rev().map(|condensed| {
+        let text = repeated(names.history_entry(&condensed.last), condensed.times);
+        WhySentence::of_step(trace, condensed.last.step, 0, text)
+    });
+    at_full_resolution.into_iter().chain(of_second_look).chain(of_working_pixel).collect()
 }
 
 /// What a region of the second look is made of.
