@@ -52,12 +52,7 @@ struct PipelineSettings<'a> {
 
 impl Pipelines {
     pub(super) fn new(device: &wgpu::Device) -> Self {
-        let globals = device.create_buffer(&wgpu::BufferDescriptor {
-            label: Some("globals"),
-            size: size_of::<Globals>() as u64,
-            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
-            mapped_at_creation: false,
-        });
+        let globals = globals_buffer(device);
         let bind_layout = bind_layout(device);
         let bind_group = device.create_bind_group(&wgpu::BindGroupDescriptor {
             label: Some("globals"),
@@ -69,13 +64,10 @@ impl Pipelines {
             bind_group_layouts: &[Some(&bind_layout)],
             immediate_size: 0,
         });
-        let [points, lines, solids] =
-            [("points", POINTS_WGSL), ("lines", LINES_WGSL), ("solids", SOLIDS_WGSL)].map(|(label, text)| {
-                device.create_shader_module(wgpu::ShaderModuleDescriptor {
-                    label: Some(label),
-                    source: wgpu::ShaderSource::Wgsl(text.into()),
-                })
-            });
+        let shader = |label, text| shader(device, label, text);
+        let points = shader("points", POINTS_WGSL);
+        let lines = shader("lines", LINES_WGSL);
+        let solids = shader("solids", SOLIDS_WGSL);
         let make = |settings: &PipelineSettings| pipeline(device, &layout, settings);
         let point = PipelineSettings {
             shader: &points,
@@ -125,6 +117,22 @@ impl Pipelines {
             globals,
         }
     }
+}
+
+fn shader(device: &wgpu::Device, label: &str, text: &str) -> wgpu::ShaderModule {
+    device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(label),
+        source: wgpu::ShaderSource::Wgsl(text.into()),
+    })
+}
+
+fn globals_buffer(device: &wgpu::Device) -> wgpu::Buffer {
+    device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("globals"),
+        size: size_of::<Globals>() as u64,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    })
 }
 
 fn bind_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {

@@ -230,39 +230,7 @@ impl WindowContent {
         if !self.dialogs.is_open() && !self.command_palette.is_open() {
             open_dropped_and_pasted(ui, cx);
         }
-        self.dialogs.close_on_escape(ui.ctx());
-        self.command_palette.close_on_keys(ui.ctx());
-        self.panels.image.cancel_on_escape(ui.ctx());
-        self.panels.cube.cancel_on_escape(ui.ctx());
-        self.panels.plane.cancel_on_escape(ui.ctx());
-        // egui removes the focus from a text field on Escape, so the focus of the last frame decides.
-        let was_text_edited = std::mem::replace(&mut self.is_text_edited, false);
-        let escape_is_action = !was_text_edited && !egui::Popup::is_any_open(ui.ctx());
-        let listeners = shortcuts::KeyListeners::of(
-            cx.state,
-            self.panels.color_space_rect.take(),
-            timeline_panel::track_id(),
-        );
-        let owns_keyboard = self.dialogs.is_open() || self.command_palette.is_open();
-        if !owns_keyboard {
-            self.menu_keys.handle(ui.ctx());
-        }
-        let mut held_keys = owns_keyboard.then(|| take_keys(ui.ctx()));
-        let pressed = shortcuts::pressed(ui.ctx(), escape_is_action, listeners, &mut self.space_tap);
-        for action in std::mem::take(&mut self.actions).into_iter().chain(pressed) {
-            // A dialog is invisible in its first frame, in which egui measures the dialog.
-            ui.ctx().request_repaint();
-            match action {
-                Action::Quit => ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close),
-                Action::Show(pane) => self.raise(pane),
-                Action::ShowAll => self.dock.reset(),
-                Action::Palette => self.command_palette.toggle(ui.ctx()),
-                Action::Menus => self.menu_keys.toggle(ui.ctx()),
-                Action::CopyCommandLine => copy_command_line(ui, cx),
-                Action::View(step) => self.panels.image.step_view(ui.ctx(), cx, step),
-                _ => perform::carry_out(action, cx, &mut self.dialogs, &mut self.help),
-            }
-        }
+        let mut held_keys = self.handle_keys(ui, cx);
         if let Some(pane) = self.single_pane {
             let frame = egui::Frame::new().fill(cx.palette.panel);
             egui::CentralPanel::default().frame(frame).show(ui, |ui| self.panels.show(pane, ui, cx));
@@ -291,6 +259,52 @@ impl WindowContent {
             ui.ctx().input_mut(|input| input.events.extend(keys));
         }
         self.last_hover.end(cx);
+        self.show_over_panels(ui, cx);
+        self.is_text_edited = ui.ctx().text_edit_focused();
+        self.keyboard_focus.show(ui.ctx(), cx.palette);
+    }
+
+    /// Carries out the actions of the pressed keys, of the menus and of the palette. Returns the keys that are kept from the panels, where a dialog
+    /// or the palette owns the keyboard.
+    fn handle_keys(&mut self, ui: &Ui, cx: &mut PanelContext) -> Option<Vec<egui::Event>> {
+        self.dialogs.close_on_escape(ui.ctx());
+        self.command_palette.close_on_keys(ui.ctx());
+        self.panels.image.cancel_on_escape(ui.ctx());
+        self.panels.cube.cancel_on_escape(ui.ctx());
+        self.panels.plane.cancel_on_escape(ui.ctx());
+        // egui removes the focus from a text field on Escape, so the focus of the last frame decides.
+        let was_text_edited = std::mem::replace(&mut self.is_text_edited, false);
+        let escape_is_action = !was_text_edited && !egui::Popup::is_any_open(ui.ctx());
+        let listeners = shortcuts::KeyListeners::of(
+            cx.state,
+            self.panels.color_space_rect.take(),
+            timeline_panel::track_id(),
+        );
+        let owns_keyboard = self.dialogs.is_open() || self.command_palette.is_open();
+        if !owns_keyboard {
+            self.menu_keys.handle(ui.ctx());
+        }
+        let held_keys = owns_keyboard.then(|| take_keys(ui.ctx()));
+        let pressed = shortcuts::pressed(ui.ctx(), escape_is_action, listeners, &mut self.space_tap);
+        for action in std::mem::take(&mut self.actions).into_iter().chain(pressed) {
+            // A dialog is invisible in its first frame, in which egui measures the dialog.
+            ui.ctx().request_repaint();
+            match action {
+                Action::Quit => ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close),
+                Action::Show(pane) => self.raise(pane),
+                Action::ShowAll => self.dock.reset(),
+                Action::Palette => self.command_palette.toggle(ui.ctx()),
+                Action::Menus => self.menu_keys.toggle(ui.ctx()),
+                Action::CopyCommandLine => copy_command_line(ui, cx),
+                Action::View(step) => self.panels.image.step_view(ui.ctx(), cx, step),
+                _ => perform::carry_out(action, cx, &mut self.dialogs, &mut self.help),
+            }
+        }
+        held_keys
+    }
+
+    /// Shows what lies over the panels: notices, palette, dialogs and the list of keys.
+    fn show_over_panels(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let timeline = self.dock.rect_of(Pane::Timeline).filter(|_| !self.compact_dock.is_in_use);
         let floor = timeline.map_or(ui.ctx().content_rect().bottom(), |timeline| timeline.top() - TAB_BAR_PT);
         self.notices.show(ui, cx, floor);
@@ -302,8 +316,6 @@ impl WindowContent {
             cx.send(command);
         }
         shortcuts::show_help(ui, cx, &mut self.help);
-        self.is_text_edited = ui.ctx().text_edit_focused();
-        self.keyboard_focus.show(ui.ctx(), cx.palette);
     }
 
     /// Shows the panels as they are arranged, or where there is no room for that, as tabs of one group.

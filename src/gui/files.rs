@@ -1,12 +1,10 @@
 //! Dialogs for files: a field for the path, and beside the field the system's own file dialog, where the system has one.
-//!
-//! The system's dialog runs on a thread of its own, so that a dialog that hangs does not stop the window.
 
 use super::PanelContext;
 use super::action::{LayerFile, PixelSet};
 use super::pane::Pane;
 use super::proposed_path::{proposed_layer_path, proposed_path, proposed_pixels_path};
-use super::task::Task;
+use super::system_dialog::{Answer, SystemDialog, Wanted};
 use super::typed_path::{typed_path, unique_names};
 use super::view_export::ViewExport;
 use crate::app::{
@@ -36,9 +34,6 @@ pub enum Dialog {
     Export,
 }
 
-/// A system's dialog that answers within this time was never shown, seconds.
-const NO_DIALOG_SECONDS: f64 = 0.3;
-
 /// Views that can be drawn at any size.
 const VIEWS: [Pane; 3] = [Pane::Colors, Pane::Plane, Pane::Profile];
 
@@ -51,7 +46,7 @@ pub struct Dialogs {
     view: Pane,
     size_px: [u32; 2],
     view_export: Option<ViewExport>,
-    system_dialog: Option<Task<Option<PathBuf>>>,
+    system_dialog: SystemDialog,
     focus: bool,
     /// Whether the dialog was opened after the last frame.
     is_new: bool,
@@ -59,8 +54,6 @@ pub struct Dialogs {
     focus_before: Option<egui::Id>,
     /// What is wrong with the path, until the path is changed.
     problem: String,
-    /// The time at which the system's dialog was asked for, seconds.
-    asked_at: f64,
     /// While a file that was confirmed is being read: the id of the newest notice before. The dialog stays open until the file
     /// has been read, so that an error leaves dialog and text as they are.
     reading_since: Option<u64>,
@@ -76,12 +69,11 @@ impl Default for Dialogs {
             view: Pane::Colors,
             size_px: [1800, 1200],
             view_export: None,
-            system_dialog: None,
+            system_dialog: SystemDialog::default(),
             focus: false,
             is_new: false,
             focus_before: None,
             problem: String::new(),
-            asked_at: 0.0,
             reading_since: None,
         }
     }
@@ -282,7 +274,7 @@ impl Dialogs {
                 response.request_focus();
             }
             confirmed |= response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
-            let browse = ui.add_enabled(self.system_dialog.is_none(), egui::Button::new("Browse\u{2026}"));
+            let browse = ui.add_enabled(!self.system_dialog.is_open(), egui::Button::new("Browse\u{2026}"));
             if browse.on_hover_text("The system's own dialog, where it has one.").clicked() {
                 self.browse(ui.ctx(), dialog);
             }
@@ -298,34 +290,38 @@ impl Dialogs {
         if !self.problem.is_empty() {
             ui.add(egui::Label::new(RichText::new(&self.problem).color(cx.palette.error)).wrap());
         }
-        if confirmed {
-            let path = typed_path(&self.path).unwrap_or_default();
-            if let Some(problem) = problem_of(dialog, &path) {
-                // The dialog stays open, with the text, so that the text can be corrected.
-                (self.problem, self.focus) = (problem, true);
-                return false;
-            }
-            if reads(dialog) {
-                self.reading_since = Some(newest_notice(cx));
-            }
-            if dialog == Dialog::Export && self.kind == ExportKind::View {
-                self.view_export = Some(ViewExport { pane: self.view, size_px: self.size_px, path });
-                return confirmed;
-            }
-            cx.send(match dialog {
-                Dialog::Open if is_workspace(&path) => JobCommand::OpenWorkspace(path),
-                Dialog::Open => JobCommand::Open(Origin::File(path)),
-                Dialog::LoadParameters => JobCommand::LoadParams(path),
-                Dialog::OpenWorkspace => JobCommand::OpenWorkspace(path),
-                Dialog::OpenElsewhere(kind) => JobCommand::OpenElsewhere(kind, path),
-                Dialog::SaveParameters => JobCommand::Export(ExportKind::Parameters.to(path)),
-                Dialog::SaveWorkspace => JobCommand::Export(ExportKind::Workspace.to(workspace_path(path))),
-                Dialog::Export => {
-                    JobCommand::Export(Export { kind: self.kind, path, options: self.options.clone() })
-                }
-            });
+        confirmed && self.confirm(dialog, cx)
+    }
+
+    /// Does what the dialog is for with the typed path. Returns whether the dialog is done: it stays open for a path that cannot be read, and while
+    /// a file is being read.
+    fn confirm(&mut self, dialog: Dialog, cx: &mut PanelContext) -> bool {
+        let path = typed_path(&self.path).unwrap_or_default();
+        if let Some(problem) = problem_of(dialog, &path) {
+            // The text stays, so that the text can be corrected.
+            (self.problem, self.focus) = (problem, true);
+            return false;
         }
-        confirmed && !reads(dialog)
+        if reads(dialog) {
+            self.reading_since = Some(newest_notice(cx));
+        }
+        cx.send(match dialog {
+            Dialog::Open if is_workspace(&path) => JobCommand::OpenWorkspace(path),
+            Dialog::Open => JobCommand::Open(Origin::File(path)),
+            Dialog::LoadParameters => JobCommand::LoadParams(path),
+            Dialog::OpenWorkspace => JobCommand::OpenWorkspace(path),
+            Dialog::OpenElsewhere(kind) => JobCommand::OpenElsewhere(kind, path),
+            Dialog::SaveParameters => JobCommand::Export(ExportKind::Parameters.to(path)),
+            Dialog::SaveWorkspace => JobCommand::Export(ExportKind::Workspace.to(workspace_path(path))),
+            Dialog::Export if self.kind == ExportKind::View => {
+                self.view_export = Some(ViewExport { pane: self.view, size_px: self.size_px, path });
+                return true;
+            }
+            Dialog::Export => {
+                JobCommand::Export(Export { kind: self.kind, path, options: self.options.clone() })
+            }
+        });
+        !reads(dialog)
     }
 
     /// Closes the dialog when the confirmed file has been read. Where the file could not be read, the dialog stays, and the
@@ -372,51 +368,30 @@ impl Dialogs {
         is_chosen
     }
 
-    /// Opens the system's file dialog on a thread.
+    /// Opens the system's file dialog where the typed path leads.
     fn browse(&mut self, ctx: &egui::Context, dialog: Dialog) {
-        let folder = dialog == Dialog::Export && self.kind.is_folder();
-        let writes = matches!(dialog, Dialog::SaveParameters | Dialog::SaveWorkspace | Dialog::Export);
-        let start = typed_path(&self.path).unwrap_or_default();
-        self.problem.clear();
-        self.asked_at = ctx.input(|input| input.time);
-        let ask = move || {
-            let mut dialog = rfd::AsyncFileDialog::new();
-            if let Some(parent) = start.parent().filter(|parent| parent.is_dir()) {
-                dialog = dialog.set_directory(parent);
-            }
-            if let Some(name) = start.file_name().filter(|_| writes) {
-                dialog = dialog.set_file_name(name.to_string_lossy());
-            }
-            let answer = pollster::block_on(async {
-                if folder {
-                    dialog.pick_folder().await
-                } else if writes {
-                    dialog.save_file().await
-                } else {
-                    dialog.pick_file().await
-                }
-            });
-            answer.map(|file| file.path().to_path_buf())
+        let wanted = match dialog {
+            Dialog::Export if self.kind.is_folder() => Wanted::Folder,
+            _ if reads(dialog) => Wanted::FileToRead,
+            _ => Wanted::FileToWrite,
         };
-        self.system_dialog = Task::start(ctx, "file dialog", ask);
+        self.problem.clear();
+        self.system_dialog.open(ctx, typed_path(&self.path).unwrap_or_default(), wanted);
     }
 
     /// Takes the path that was chosen in the system's dialog.
     fn take_chosen_path(&mut self, ui: &Ui) {
-        if let Some(answer) = Task::take(&mut self.system_dialog) {
-            self.focus = true;
-            let waited = ui.input(|input| input.time) - self.asked_at;
-            match answer {
-                Some(path) => self.path = path.display().to_string(),
-                // Without a portal, the answer comes at once and is the same as that of a canceled dialog.
-                None if waited < NO_DIALOG_SECONDS => {
-                    "This system shows no file dialog. Type or paste a path, or drop a file on the window."
-                        .clone_into(&mut self.problem);
-                }
-                None => {}
+        let Some(answer) = self.system_dialog.take_answer(ui.ctx()) else { return };
+        self.focus = true;
+        match answer {
+            Answer::Chosen(path) => self.path = path.display().to_string(),
+            Answer::NotShown => {
+                "This system shows no file dialog. Type or paste a path, or drop a file on the window."
+                    .clone_into(&mut self.problem);
             }
-            ui.ctx().request_repaint();
+            Answer::Canceled => {}
         }
+        ui.ctx().request_repaint();
     }
 }
 

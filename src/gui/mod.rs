@@ -49,6 +49,7 @@ mod shortcuts;
 mod skewed_t_test;
 mod start;
 mod status;
+mod system_dialog;
 mod task;
 #[doc(hidden)]
 pub mod testing;

@@ -95,12 +95,7 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
     let gesture = Gesture::Parameter(parameter);
     // Dragging and typing start from the value in force.
     let mut value = setting.value().or(used).filter(|value| value.is_finite()).unwrap_or(spec.paper);
-    let in_paper = if spec.is_in_paper() {
-        format!("Paper, table 6: {} {} ({}).", spec.paper, spec.unit, spec.section)
-    } else {
-        format!("The paper has no such parameter; {} {} is its way.", spec.paper, spec.unit)
-    };
-    let tip = format!("{}: {}.\n{in_paper} Double-click: back to the default.", spec.name, spec.meaning);
+    let tip = tooltip(&spec);
     let columns = Columns::of(ui);
     ui.scope(|ui| {
         // The button `auto` is as narrow as its cell and stays in one line.
@@ -150,6 +145,16 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
             cx.send(Edit::EndGesture);
         }
     });
+}
+
+/// The tooltip of a parameter's name and field.
+fn tooltip(spec: &ParameterSpec) -> String {
+    let in_paper = if spec.is_in_paper() {
+        format!("Paper, table 6: {} {} ({}).", spec.paper, spec.unit, spec.section)
+    } else {
+        format!("The paper has no such parameter; {} {} is its way.", spec.paper, spec.unit)
+    };
+    format!("{}: {}.\n{in_paper} Double-click: back to the default.", spec.name, spec.meaning)
 }
 
 /// Shows what a parameter of working pixels is in pixels of the photograph, where the two differ.

@@ -4,6 +4,7 @@ mod chart;
 mod cluster;
 mod cursor;
 mod kinds;
+mod labels;
 pub mod testing;
 
 use super::theme::SMALL_PT;
@@ -18,9 +19,10 @@ use crate::view::{
     Item, NamedMarks, Picture, PixelAmounts, PlaneBranch, Point, RegionPlane, ResultSnapshot, Theme, Tool,
     plane_mask, region_plane, sphere_in_plane,
 };
-use chart::{Chart, Obstacles, PointDensity};
+use chart::Chart;
 use egui::text::LayoutJob;
 use egui::{Align2, Color32, Rect, Response, RichText, Sense, Shape, Stroke, Ui, vec2};
+use labels::{Obstacles, PointDensity};
 use std::sync::Arc;
 
 /// Largest distance from the pointer at which a point counts as hovered, screen points.
@@ -77,6 +79,11 @@ impl PlanePanel {
             return nothing_selected(ui, cx);
         };
         self.update(&shown, region);
+        self.show_region(ui, cx, &shown, region);
+    }
+
+    /// Shows the plane of a region of the result.
+    fn show_region(&mut self, ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot, region: RegionId) {
         let Some(plane) = &self.plane else {
             widgets::placeholder(
                 ui,
@@ -110,7 +117,7 @@ impl PlanePanel {
         // In a narrow view the values of the hovered color take the place of the facts.
         let is_taken =
             rect.width() < TWO_TEXTS_PT && hovered_color(cx, &shown.picture).is_some() && !cx.is_export;
-        let facts = (!is_taken).then(|| paint_facts(&painter, cx, plane, &shown, rect)).flatten();
+        let facts = (!is_taken).then(|| paint_facts(&painter, cx, plane, shown, rect)).flatten();
         let amounts = paint_hovered(&painter, cx, plane, chart, &shown.picture, rect);
         let density = PointDensity::default();
         let points = self.point_mesh.as_ref().map_or(&density, |point_mesh| &point_mesh.density);
@@ -121,7 +128,7 @@ impl PlanePanel {
             mark_outlined(
                 ui,
                 cx,
-                &shown,
+                shown,
                 plane,
                 &outline.iter().map(|at| chart.oblique(*at, rect)).collect::<Vec<_>>(),
             );

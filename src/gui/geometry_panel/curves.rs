@@ -5,7 +5,7 @@ use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::reflection::photometry::{SphereGeometry, q_infinity};
 use crate::view::GeometrySettings;
 use egui::accesskit::Role;
-use egui::{Align2, FontId, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
+use egui::{Align2, FontId, Painter, Pos2, Rect, Sense, Shape, Stroke, Ui, Vec2, WidgetInfo, pos2, vec2};
 
 /// Distances d/r of the quiet curves; the curve of an infinite distance is equation (11).
 const DISTANCES: [f64; 3] = [1.5, 2.0, 5.0];
@@ -20,6 +20,29 @@ fn curve(distance: f64) -> Vec<[f64; 2]> {
     let phases = (0..=POINTS).map(|index| most * f64::from(index) / f64::from(POINTS));
     let q = |phase: f64| Some([phase, SphereGeometry::new(1.0, distance, phase)?.q()?]);
     phases.filter_map(q).collect()
+}
+
+/// Where a phase angle, degrees, and a q lie in the area of the curves, screen points.
+fn place(area: Rect, [phase, q]: [f64; 2]) -> Pos2 {
+    let up = (q - LEAST_Q) / (1.0 - LEAST_Q);
+    pos2(area.left() + area.width() * (phase / 180.0) as f32, area.bottom() - area.height() * up as f32)
+}
+
+/// Paints the lines of round values in the area of the curves, with their numbers beside it.
+fn paint_grid(painter: &Painter, palette: &ThemeColors, area: Rect) {
+    let (font, quiet) = (FontId::proportional(SMALL_PT), Stroke::new(1.0, palette.line));
+    for phase in [0.0, 45.0, 90.0, 135.0, 180.0] {
+        let x = place(area, [phase, 1.0]).x;
+        painter.vline(x, area.y_range(), quiet);
+        let (below, text) = (pos2(x, area.bottom() + 3.0), format!("{phase:.0}\u{b0}"));
+        painter.text(below, Align2::CENTER_TOP, text, font.clone(), palette.secondary);
+    }
+    for q in [0.4, 0.5, 0.6, 0.8, 1.0] {
+        let y = place(area, [0.0, q]).y;
+        painter.hline(area.x_range(), y, quiet);
+        let (beside, text) = (pos2(area.left() - 4.0, y), format!("{q:.1}"));
+        painter.text(beside, Align2::RIGHT_CENTER, text, font.clone(), palette.secondary);
+    }
 }
 
 /// Shows the chart in `size`. `share`: the place of the selected region's highlight on its matte line.
@@ -39,23 +62,9 @@ pub fn show(ui: &mut Ui, palette: &ThemeColors, size: Vec2, settings: GeometrySe
     }
     let painter = ui.painter_at(rect);
     let font = FontId::proportional(SMALL_PT);
-    let at = |[phase, q]: [f64; 2]| -> Pos2 {
-        let up = (q - LEAST_Q) / (1.0 - LEAST_Q);
-        pos2(area.left() + area.width() * (phase / 180.0) as f32, area.bottom() - area.height() * up as f32)
-    };
-    let quiet = Stroke::new(1.0, palette.line);
-    for phase in [0.0, 45.0, 90.0, 135.0, 180.0] {
-        painter.vline(at([phase, 1.0]).x, area.y_range(), quiet);
-        let place = pos2(at([phase, 1.0]).x, area.bottom() + 3.0);
-        painter.text(place, Align2::CENTER_TOP, format!("{phase:.0}\u{b0}"), font.clone(), palette.secondary);
-    }
-    for q in [0.4, 0.5, 0.6, 0.8, 1.0] {
-        painter.hline(area.x_range(), at([0.0, q]).y, quiet);
-        let place = pos2(area.left() - 4.0, at([0.0, q]).y);
-        painter.text(place, Align2::RIGHT_CENTER, format!("{q:.1}"), font.clone(), palette.secondary);
-    }
+    paint_grid(&painter, palette, area);
     let line = |points: &[[f64; 2]], stroke: Stroke| {
-        Shape::line(points.iter().map(|&point| at(point)).collect(), stroke)
+        Shape::line(points.iter().map(|&point| place(area, point)).collect(), stroke)
     };
     for distance in DISTANCES {
         painter.add(line(&curve(distance), Stroke::new(1.0, palette.secondary.gamma_multiply(0.7))));
@@ -73,7 +82,7 @@ pub fn show(ui: &mut Ui, palette: &ThemeColors, size: Vec2, settings: GeometrySe
         palette.text,
     );
     if let Some(share) = share.filter(|share| (LEAST_Q..=1.0).contains(share)) {
-        let y = at([0.0, share]).y;
+        let y = place(area, [0.0, share]).y;
         painter.extend(Shape::dashed_line(
             &[pos2(area.left(), y), pos2(area.right(), y)],
             Stroke::new(1.5, palette.text),
@@ -83,7 +92,12 @@ pub fn show(ui: &mut Ui, palette: &ThemeColors, size: Vec2, settings: GeometrySe
         painter.text(pos2(area.right(), y - 1.0), Align2::RIGHT_BOTTOM, "the region", font, palette.text);
     }
     if let Some(q) = q {
-        painter.circle(at([settings.phase_deg, q]), 4.5, palette.accent, Stroke::new(1.5, palette.text));
+        painter.circle(
+            place(area, [settings.phase_deg, q]),
+            4.5,
+            palette.accent,
+            Stroke::new(1.5, palette.text),
+        );
     }
 }
 

@@ -1,7 +1,7 @@
 //! The plane panel at the debugger's cursor: a skewed-T test (section 5.4.1), drawn in the plane that both lines span,
 //! or a region that grows in its slice (section 5.4.2).
 
-use super::chart::{Obstacles, PointDensity};
+use super::labels::{Obstacles, PointDensity};
 use super::{PlanePanel, navigate, paint_hovered, point_mesh, secondary_text};
 use crate::app::State;
 use crate::gui::{PanelContext, skewed_t_test, widgets};
