@@ -261,7 +261,7 @@ fn region_colors(analysis: &Analysis, last: Option<&ResultSnapshot>) -> Vec<[u8;
 fn result_snapshot(
     request: &AnalysisRequest,
     analysis: Analysis,
-    took_ms: [Option<f64>; 7],
+    took_ms: [Option<f64>; Stage::ALL.len()],
     region_colors: Vec<[u8; 3]>,
 ) -> ResultSnapshot {
     let area = request.area.clone();

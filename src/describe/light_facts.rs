@@ -1,6 +1,6 @@
 //! What the report says of noise, ambient light and illuminant.
 
-use super::words::{ambient_reason, light_reason};
+use super::light_words::{ambient_reason, light_reason};
 use crate::analysis::Analysis;
 use crate::intrinsic::Ambient;
 use crate::segment::{LightBasis, LightFindings};

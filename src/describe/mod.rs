@@ -6,6 +6,7 @@
 mod events;
 mod facts;
 mod light_facts;
+mod light_words;
 mod names;
 mod region_facts;
 mod scores;
@@ -20,15 +21,13 @@ pub use facts::{
 pub use light_facts::{
     AmbientFacts, CodingFacts, IlluminantFacts, LightEstimateFacts, NoiseFacts, SecondLampFacts,
 };
+pub use light_words::{ambient_reason, light_reason};
 pub use names::Names;
 pub use region_facts::{HighlightBranchFacts, RegionFacts};
 pub use scores::Scores;
 pub use skewed_t_facts::SkewedTFacts;
 pub use trace_line::{TRACE_SCHEMA, schema_line, second_look_line, second_look_trace_line, trace_line};
-pub use words::{
-    Condensed, ambient_reason, condense, light_reason, reason_label, reason_meaning, sentences,
-    what_if_sentence,
-};
+pub use words::{Condensed, condense, reason_label, reason_meaning, sentences, what_if_sentence};
 
 /// Name of the report in a result folder.
 pub const FILE_NAME: &str = "report.json";

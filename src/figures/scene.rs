@@ -11,7 +11,7 @@ use crate::truth::GroundTruth;
 use crate::view::{
     Histogram, Layer, Look, Origin, Picture, ProfileLine, ResultSnapshot, profile_ends, region_colors,
 };
-use std::sync::{Arc, OnceLock};
+use std::sync::Arc;
 
 /// Code of the brightest usual color where the exposure of a picture is changed, share of white.
 const BRIGHTEST_SHARE: f64 = 0.9;
@@ -123,21 +123,8 @@ impl Scene {
             truth,
         });
         let region_colors = region_colors(&analysis, None);
-        let shown = ResultSnapshot {
-            generation: 0,
-            picture,
-            params,
-            area,
-            coverage: report_coverage(&analysis),
-            analysis,
-            stale_from: None,
-            region_colors,
-            took_ms: [None; 7],
-            trace: OnceLock::new(),
-            accuracy: OnceLock::new(),
-            phoenix: OnceLock::new(),
-            reasons: OnceLock::new(),
-        };
+        let shown = ResultSnapshot::new(picture, params, analysis, region_colors);
+        let shown = ResultSnapshot { area, ..shown };
         Self::of_snapshot(Arc::new(shown), report)
     }
 
@@ -321,12 +308,6 @@ impl Counts {
         }
         counts
     }
-}
-
-/// Share of the lit pixels that are in a region; 0 where all are dark.
-fn report_coverage(analysis: &Analysis) -> f64 {
-    let counts = Counts::of(analysis);
-    counts.lit_in_regions[2] as f64 / counts.lit.max(1) as f64
 }
 
 /// The row with most highlight pixels, of equals the first; the middle row of a photograph without highlights.

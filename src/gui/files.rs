@@ -2,14 +2,12 @@
 
 use super::PanelContext;
 use super::action::{LayerFile, PixelSet};
-use super::pane::Pane;
+use super::export_form::ExportForm;
 use super::proposed_path::{proposed_layer_path, proposed_path, proposed_pixels_path};
 use super::system_dialog::{Answer, SystemDialog, Wanted};
 use super::typed_path::{typed_path, unique_names};
 use super::view_export::ViewExport;
-use crate::app::{
-    Export, ExportKind, ExportOptions, JobCommand, Notice, Severity, ViewCommand, is_workspace,
-};
+use crate::app::{Export, ExportKind, JobCommand, Notice, Severity, ViewCommand, is_workspace};
 use crate::truth::sample::{SAMPLES, THREE_LAMPS};
 use crate::view::{ElsewhereKind, Layer, Origin};
 use egui::{Key, Modifiers, RichText, Ui};
@@ -34,17 +32,12 @@ pub enum Dialog {
     Export,
 }
 
-/// Views that can be drawn at any size.
-const VIEWS: [Pane; 3] = [Pane::Colors, Pane::Plane, Pane::Profile];
-
 /// The open dialog, and the system's file dialog that may be open beside it.
+#[derive(Default)]
 pub struct Dialogs {
     dialog: Option<Dialog>,
     path: String,
-    kind: ExportKind,
-    options: ExportOptions,
-    view: Pane,
-    size_px: [u32; 2],
+    export: ExportForm,
     view_export: Option<ViewExport>,
     system_dialog: SystemDialog,
     focus: bool,
@@ -59,32 +52,12 @@ pub struct Dialogs {
     reading_since: Option<u64>,
 }
 
-impl Default for Dialogs {
-    fn default() -> Self {
-        Self {
-            dialog: None,
-            path: String::new(),
-            kind: ExportKind::Matte,
-            options: ExportOptions::default(),
-            view: Pane::Colors,
-            size_px: [1800, 1200],
-            view_export: None,
-            system_dialog: SystemDialog::default(),
-            focus: false,
-            is_new: false,
-            focus_before: None,
-            problem: String::new(),
-            reading_since: None,
-        }
-    }
-}
-
 impl Dialogs {
     /// Opens a dialog.
     pub fn open(&mut self, dialog: Dialog) {
-        (self.dialog, self.focus, self.options.force) = (Some(dialog), true, false);
+        (self.dialog, self.focus, self.export.options.force) = (Some(dialog), true, false);
         self.reading_since = None;
-        (self.options.layer, self.options.region) = (None, None);
+        (self.export.options.layer, self.export.options.region) = (None, None);
         self.problem.clear();
         self.is_new = true;
         match dialog {
@@ -103,7 +76,7 @@ impl Dialogs {
     /// Opens the export dialog for a file of one layer.
     pub fn open_layer_export(&mut self, cx: &PanelContext, layer: Layer, file: LayerFile) {
         self.open(Dialog::Export);
-        (self.kind, self.options.layer) = (ExportKind::Layer, Some(layer));
+        (self.export.kind, self.export.options.layer) = (ExportKind::Layer, Some(layer));
         self.path = proposed_layer_path(layer, file, cx).display().to_string();
     }
 
@@ -115,7 +88,7 @@ impl Dialogs {
             PixelSet::Region(region) => Some(region),
             PixelSet::SelectedRegion => cx.state.selected_region(),
         };
-        (self.kind, self.options.region) = (ExportKind::Selection, region);
+        (self.export.kind, self.export.options.region) = (ExportKind::Selection, region);
         self.path = proposed_pixels_path(region, cx).display().to_string();
     }
 
@@ -164,7 +137,7 @@ impl Dialogs {
             ui.ctx(),
             |ui| {
                 if dialog == Dialog::Export {
-                    self.export_kinds(ui, cx);
+                    self.export_form(ui, cx);
                 }
                 let is_done = self.path_row(ui, dialog, cx);
                 if let Dialog::OpenElsewhere(kind) = dialog {
@@ -183,73 +156,15 @@ impl Dialogs {
         self.view_export.take()
     }
 
-    /// The kinds of export, and the options of the chosen kind.
-    fn export_kinds(&mut self, ui: &mut Ui, cx: &PanelContext) {
+    /// Shows the kinds of export with their options, and proposes a path for a kind that was chosen.
+    fn export_form(&mut self, ui: &mut Ui, cx: &PanelContext) {
         if self.path.is_empty() {
-            self.path = proposed_path(self.kind, cx).display().to_string();
+            self.path = proposed_path(self.export.kind, cx).display().to_string();
         }
-        for kind in ExportKind::ALL.into_iter().filter(|kind| kind.is_offered()) {
-            let of_region = kind == ExportKind::Selection && self.options.region.is_some();
-            let available =
-                (of_region || kind.is_available(cx.state)) && (kind != ExportKind::View || cx.gpu.is_some());
-            let radio = ui.add_enabled(available, egui::RadioButton::new(self.kind == kind, kind.title()));
-            if radio.on_hover_text(kind.tip()).on_disabled_hover_text(kind.tip()).clicked() {
-                self.kind = kind;
-                (self.options.layer, self.options.region) = (None, None);
-                self.path = proposed_path(kind, cx).display().to_string();
-                self.focus = true;
-            }
+        if self.export.show(ui, cx) {
+            self.path = proposed_path(self.export.kind, cx).display().to_string();
+            self.focus = true;
         }
-        ui.add_space(4.0);
-        match self.kind {
-            ExportKind::Matte => self.surface_slider(ui),
-            ExportKind::Result => {
-                self.surface_slider(ui);
-                ui.checkbox(&mut self.options.force, "replace the folder whatever it holds").on_hover_text(
-                    "An earlier result is replaced anyway; this replaces any other folder too.",
-                );
-            }
-            ExportKind::Layer => {
-                let layer = self.options.layer.unwrap_or(cx.state.view.image.layer);
-                let text = format!("{}: .png as shown, .exr or .npy with its numbers", layer.name());
-                ui.label(RichText::new(text).color(cx.palette.secondary));
-            }
-            ExportKind::Selection => {
-                let marked = || "the marked pixels".to_owned();
-                let of = self
-                    .options
-                    .region
-                    .map_or_else(marked, |region| format!("the pixels of region {region}"));
-                let text = format!("{of}: .png as a mask, .csv as a table, .ply as points in the color cube");
-                ui.label(RichText::new(text).color(cx.palette.secondary));
-            }
-            ExportKind::View => {
-                ui.horizontal(|ui| {
-                    for pane in VIEWS {
-                        ui.selectable_value(&mut self.view, pane, pane.title());
-                    }
-                    for (side, name) in self.size_px.iter_mut().zip(["width", "height"]) {
-                        let field = ui.add(egui::DragValue::new(side).range(64..=8192).suffix(" px"));
-                        field.widget_info(|| {
-                            egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, name)
-                        });
-                    }
-                });
-            }
-            _ => {}
-        }
-        ui.add_space(4.0);
-    }
-
-    /// Shows the slider of the share of surface reflection that stays in the photograph without highlights.
-    fn surface_slider(&mut self, ui: &mut Ui) {
-        ui.spacing_mut().slider_width = 200.0;
-        let slider =
-            egui::Slider::new(&mut self.options.keep_surface, 0.0..=1.0).text("surface reflection kept");
-        ui.add(slider.custom_formatter(|v, _| format!("{:.0} %", v * 100.0)).custom_parser(|text| {
-            text.trim_end_matches(['%', ' ']).parse::<f64>().ok().map(|percent| percent / 100.0)
-        }))
-        .on_hover_text("0 %: no highlights. 100 %: the photograph as it was, but for restored pixels.");
     }
 
     /// Shows the path's field and the buttons. Returns whether the dialog was confirmed.
@@ -313,13 +228,16 @@ impl Dialogs {
             Dialog::OpenElsewhere(kind) => JobCommand::OpenElsewhere(kind, path),
             Dialog::SaveParameters => JobCommand::Export(ExportKind::Parameters.to(path)),
             Dialog::SaveWorkspace => JobCommand::Export(ExportKind::Workspace.to(workspace_path(path))),
-            Dialog::Export if self.kind == ExportKind::View => {
-                self.view_export = Some(ViewExport { pane: self.view, size_px: self.size_px, path });
+            Dialog::Export if self.export.kind == ExportKind::View => {
+                self.view_export =
+                    Some(ViewExport { pane: self.export.view, size_px: self.export.size_px, path });
                 return true;
             }
-            Dialog::Export => {
-                JobCommand::Export(Export { kind: self.kind, path, options: self.options.clone() })
-            }
+            Dialog::Export => JobCommand::Export(Export {
+                kind: self.export.kind,
+                path,
+                options: self.export.options.clone(),
+            }),
         });
         !reads(dialog)
     }
@@ -371,7 +289,7 @@ impl Dialogs {
     /// Opens the system's file dialog where the typed path leads.
     fn browse(&mut self, ctx: &egui::Context, dialog: Dialog) {
         let wanted = match dialog {
-            Dialog::Export if self.kind.is_folder() => Wanted::Folder,
+            Dialog::Export if self.export.kind.is_folder() => Wanted::Folder,
             _ if reads(dialog) => Wanted::FileToRead,
             _ => Wanted::FileToWrite,
         };

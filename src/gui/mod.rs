@@ -17,6 +17,7 @@ mod cursor_owners;
 mod dock;
 mod dropped_files;
 mod elsewhere_section;
+mod export_form;
 mod files;
 mod geometry_panel;
 mod glossary;

@@ -50,7 +50,7 @@ pub(super) struct RegionPlan {
 }
 
 impl RegionPlan {
-    /// The plan of `region` (from 1), whose pixels are `pixels`.
+    /// The plan of `region`, whose pixels are `pixels`.
     pub(super) fn new(
         input: &AnalysisInput,
         regions: &FinalRegions,

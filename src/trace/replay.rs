@@ -8,6 +8,7 @@ use super::stage_trace::Owners;
 use super::timeline::EventId;
 use super::{CandidateChosen, Pass, PixelKind, SliceMade, Stage, StageTrace, Step, Trace};
 use crate::raster::{HypothesisId, LabelMap, RegionId, UNASSIGNED};
+use std::ops::Range;
 use std::sync::Arc;
 
 /// Number of claims up to which the cursor plays from its place and looks for no keyframe.
@@ -207,12 +208,7 @@ impl Replay {
     /// Number of moves among the first `n` steps.
     fn moves_before(&self, n: usize) -> usize {
         let stage_traces = self.trace.stage_traces().iter().zip(self.trace.starts());
-        stage_traces
-            .map(|(stage_trace, &start)| {
-                let local = n.saturating_sub(start).min(stage_trace.len());
-                (local - stage_trace.events_before(local)).min(stage_trace.moves().len())
-            })
-            .sum()
+        stage_traces.map(|(stage_trace, &start)| stage_trace.moves_before(n.saturating_sub(start))).sum()
     }
 
     /// The step of the move with this number.
@@ -237,15 +233,14 @@ impl Replay {
     fn play_moves(&mut self, from: usize, to: usize) {
         let trace = Arc::clone(&self.trace);
         let spans = trace.stage_traces().iter().zip(trace.starts());
-        let range = |stage_trace: &StageTrace, start: usize, n: usize| {
-            let local = n.saturating_sub(start).min(stage_trace.len());
-            (local - stage_trace.events_before(local)).min(stage_trace.moves().len())
+        let moves = |stage_trace: &StageTrace, start: usize, steps: Range<usize>| {
+            let [first, end] =
+                [steps.start, steps.end].map(|n| stage_trace.moves_before(n.saturating_sub(start)));
+            first..end
         };
         if from <= to {
             for (stage_trace, &start) in spans {
-                for change in
-                    &stage_trace.moves()[range(stage_trace, start, from)..range(stage_trace, start, to)]
-                {
+                for change in &stage_trace.moves()[moves(stage_trace, start, from..to)] {
                     if let Some(Owners { before, after }) = change.change() {
                         self.change_owner(change.pixel(), before, after);
                     }
@@ -253,11 +248,7 @@ impl Replay {
             }
         } else {
             for (stage_trace, &start) in spans.rev() {
-                for change in stage_trace.moves()
-                    [range(stage_trace, start, to)..range(stage_trace, start, from)]
-                    .iter()
-                    .rev()
-                {
+                for change in stage_trace.moves()[moves(stage_trace, start, to..from)].iter().rev() {
                     if let Some(Owners { before, after }) = change.change() {
                         self.change_owner(change.pixel(), after, before);
                     }
@@ -290,14 +281,12 @@ impl Replay {
             .map(|(i, (stage_trace, &start))| (i, stage_trace, start))
             .collect();
         let before = |stage_trace: &StageTrace, start: usize, n: usize| {
-            stage_trace.events_before(n.saturating_sub(start).min(stage_trace.len()))
+            stage_trace.events_before(n.saturating_sub(start))
         };
-        let labels = |stage_trace: &StageTrace, start: usize, n: usize| {
-            let local = n.saturating_sub(start).min(stage_trace.len());
-            (local - stage_trace.events_before(local)).saturating_sub(stage_trace.moves().len())
-        };
-        self.state.labeled =
-            spans.iter().map(|&(_, stage_trace, start)| labels(stage_trace, start, to)).sum();
+        let kinds = spans.iter();
+        let kinds =
+            kinds.map(|&(_, stage_trace, start)| stage_trace.kind_steps_before(to.saturating_sub(start)));
+        self.state.labeled = kinds.sum();
         if from <= to {
             for (index, stage_trace, start) in spans {
                 for event in before(stage_trace, start, from)..before(stage_trace, start, to) {

@@ -231,6 +231,18 @@ impl StageTrace {
         self.event_steps.partition_point(|&step| (step as usize) < n)
     }
 
+    /// Number of moves before step `n`.
+    pub(super) fn moves_before(&self, n: usize) -> usize {
+        let n = n.min(self.len());
+        (n - self.events_before(n)).min(self.moves.len())
+    }
+
+    /// Number of the steps before step `n` that give a pixel its kind.
+    pub(super) fn kind_steps_before(&self, n: usize) -> usize {
+        let n = n.min(self.len());
+        (n - self.events_before(n)).saturating_sub(self.moves.len())
+    }
+
     pub(super) fn event(&self, index: usize) -> &Event {
         &self.events[index]
     }

@@ -117,21 +117,9 @@ pub(crate) fn shown(picture: &Arc<Picture>) -> ResultSnapshot {
 
 fn snapshot(picture: &Arc<Picture>, params: &Params, analysis: Analysis) -> ResultSnapshot {
     let count = analysis.intrinsic.regions.len();
-    ResultSnapshot {
-        generation: 1,
-        picture: Arc::clone(picture),
-        params: *params,
-        area: None,
-        analysis,
-        stale_from: None,
-        coverage: 0.0,
-        region_colors: (0..count).map(|id| [id as u8; 3]).collect(),
-        took_ms: [None; 7],
-        trace: OnceLock::new(),
-        accuracy: OnceLock::new(),
-        phoenix: OnceLock::new(),
-        reasons: OnceLock::new(),
-    }
+    let region_colors = (0..count).map(|id| [id as u8; 3]).collect();
+    let shown = ResultSnapshot::new(Arc::clone(picture), *params, analysis, region_colors);
+    ResultSnapshot { generation: 1, ..shown }
 }
 
 /// A result with these final regions, in colors 10·id, whose body is the photograph.

@@ -2,8 +2,8 @@
 
 use super::{Describe, LineObjects, nothing};
 use crate::describe::Names;
+use crate::describe::light_words::ambient_reason;
 use crate::describe::names::count;
-use crate::describe::words::ambient_reason;
 use crate::trace::{Ambient, Meeting};
 use serde_json::json;
 

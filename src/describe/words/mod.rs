@@ -3,7 +3,6 @@
 
 mod full_resolution;
 mod history;
-mod light;
 mod lineage;
 mod local_history;
 mod reason;
@@ -13,7 +12,6 @@ mod warnings;
 mod what_if;
 
 pub use history::{Condensed, condense};
-pub use light::{ambient_reason, light_reason};
 pub use reason::{reason_label, reason_meaning};
 pub use warnings::sentences;
 pub use what_if::what_if_sentence;

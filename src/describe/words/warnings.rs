@@ -1,8 +1,8 @@
 //! The warnings about a run and about its regions, a sentence each.
 
-use super::light::light_reason;
 use crate::analysis::RunWarning;
 use crate::baseline::{LEAST_MARKED_PX, NoSkewedT};
+use crate::describe::light_words::light_reason;
 use crate::intrinsic::{AngleWarning, RegionWarning};
 use crate::reflection::MIN_ANGLE_DEG;
 use std::fmt;

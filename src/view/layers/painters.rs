@@ -219,13 +219,7 @@ pub(super) fn areas(&PaintInput { ref base, shown, look, .. }: &PaintInput) -> R
     let corner = |window: usize| areas.row(window / columns * side_px)[window % columns * side_px];
     let windows = Raster::from_vec(columns, rows, (0..columns * rows).map(corner).collect());
     let windows = windows.unwrap_or_default();
-    let colors = colored(&windows);
-    let most = windows.as_slice().iter().max().map_or(0, |&area| area as usize);
-    let mut styles = vec![[0; 4]; most + 1];
-    for (&area, &color) in windows.as_slice().iter().zip(colors.as_slice()).filter(|(area, _)| **area > 0) {
-        styles[area as usize] = look.style(color, true);
-    }
-    base.overlaid(look.fill, &styles, |x, y| areas[y * areas.width() + x] as usize)
+    base.overlaid(look.fill, &colored_styles(&windows, look), |x, y| areas[y * areas.width() + x] as usize)
 }
 
 /// The regions of the result in their colors.
@@ -241,13 +235,9 @@ pub(super) fn regions(&PaintInput { ref base, shown, look, .. }: &PaintInput) ->
 /// The regions that Phoenix finds, each in a color that its neighbors do not have.
 pub(super) fn phoenix(&PaintInput { ref base, shown, look, .. }: &PaintInput) -> Raster<[u8; 4]> {
     let labels = shown.phoenix_labels();
-    let colors = colored(labels);
-    let most = labels.as_slice().iter().max().map_or(0, |&label| usize::from(label));
-    let mut styles = vec![[0; 4]; most + 1];
-    for (&label, &color) in labels.as_slice().iter().zip(colors.as_slice()).filter(|(label, _)| **label > 0) {
-        styles[usize::from(label)] = look.style(color, true);
-    }
-    base.overlaid(look.fill, &styles, |x, y| usize::from(labels[y * labels.width() + x]))
+    base.overlaid(look.fill, &colored_styles(labels, look), |x, y| {
+        usize::from(labels[y * labels.width() + x])
+    })
 }
 
 /// The labels that were made elsewhere; the photograph where there are none.
@@ -311,14 +301,28 @@ pub(super) fn masks(&PaintInput { ref base, shown, look, .. }: &PaintInput) -> R
     let width = base.photo.width();
     base.overlaid(look.fill, &legend_styles(&MASKS, look), |x, y| {
         let pixel = y * width + x;
-        match () {
-            () if area.is_some_and(|area| !area[pixel]) => 5,
-            () if masks.invalid(pixel) => 4,
-            () if masks.clipped(pixel) => 3,
-            () if masks.distorted(pixel) => 2,
-            () => usize::from(masks.dark(pixel)),
+        if area.is_some_and(|area| !area[pixel]) {
+            5
+        } else if masks.invalid(pixel) {
+            4
+        } else if masks.clipped(pixel) {
+            3
+        } else if masks.distorted(pixel) {
+            2
+        } else {
+            usize::from(masks.dark(pixel))
         }
     })
+}
+
+/// A style for each label, in a color that the labels of its neighbors do not have; none for label 0.
+fn colored_styles<T: Copy + Into<u32>>(labels: &Raster<T>, look: &Look) -> Vec<[u8; 4]> {
+    let numbers = || labels.as_slice().iter().map(|&label| label.into() as usize);
+    let mut styles = vec![[0; 4]; numbers().max().unwrap_or(0) + 1];
+    for (label, &color) in numbers().zip(colored(labels).as_slice()).filter(|(label, _)| *label > 0) {
+        styles[label] = look.style(color, true);
+    }
+    styles
 }
 
 fn legend_styles(entries: &[LegendEntry], look: &Look) -> Vec<[u8; 4]> {
