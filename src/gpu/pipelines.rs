@@ -59,11 +59,7 @@ impl Pipelines {
             layout: &bind_layout,
             entries: &[wgpu::BindGroupEntry { binding: 0, resource: globals.as_entire_binding() }],
         });
-        let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("color space"),
-            bind_group_layouts: &[Some(&bind_layout)],
-            immediate_size: 0,
-        });
+        let layout = pipeline_layout(device, &bind_layout);
         let shader = |label, text| shader(device, label, text);
         let points = shader("points", POINTS_WGSL);
         let lines = shader("lines", LINES_WGSL);
@@ -132,6 +128,14 @@ fn globals_buffer(device: &wgpu::Device) -> wgpu::Buffer {
         size: size_of::<Globals>() as u64,
         usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
         mapped_at_creation: false,
+    })
+}
+
+fn pipeline_layout(device: &wgpu::Device, bind_layout: &wgpu::BindGroupLayout) -> wgpu::PipelineLayout {
+    device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some("color space"),
+        bind_group_layouts: &[Some(bind_layout)],
+        immediate_size: 0,
     })
 }
 

@@ -66,22 +66,13 @@ pub fn linear<R: Recorder>(
             }
         };
         rank += 1;
-        if pixels.len() < rules.min_area_px {
-            pass_over(recorded_labels, PassedOver::Consumed);
-            continue;
-        }
-        if hypotheses.len() >= HypothesisId::MOST {
-            pass_over(recorded_labels, PassedOver::NoNumberLeft);
-            continue;
-        }
-        let line =
-            match hypothesis_line(input, areas.classes[area], &sample(input, &pixels), rules.through_black) {
-                Ok(line) => line,
-                Err(reason) => {
-                    pass_over(recorded_labels, reason);
-                    continue;
-                }
-            };
+        let line = match seed_line(input, areas.classes[area], &pixels, rules, hypotheses.len()) {
+            Ok(line) => line,
+            Err(reason) => {
+                pass_over(recorded_labels, reason);
+                continue;
+            }
+        };
         let hypothesis = HypothesisId::from_index(hypotheses.len());
         if R::KEEPS {
             recorded_labels.recorder.record(HypothesisChosen {
@@ -112,16 +103,23 @@ pub fn linear<R: Recorder>(
     }
 }
 
-/// The matte line of a hypothesis from the colors of an area's unclaimed pixels, or why the area makes no hypothesis. `through_black`: whether
-/// the line must pass black within the cylinder's radius.
-fn hypothesis_line(
+/// The matte line of a hypothesis from the unclaimed pixels of an area, or why the area makes no hypothesis. `made`: number of hypotheses so
+/// far.
+fn seed_line(
     input: &AnalysisInput,
     class: Option<Class>,
-    colors: &[[f32; 3]],
-    through_black: bool,
+    pixels: &[u32],
+    rules: &SeedAreaRules,
+    made: usize,
 ) -> Result<Line, PassedOver> {
-    let line = fitted_line(input, class, colors).ok_or(PassedOver::NoExtent)?;
-    let is_far = through_black && line.foot().norm() > input.used.radius_counts();
+    if pixels.len() < rules.min_area_px {
+        return Err(PassedOver::Consumed);
+    }
+    if made >= HypothesisId::MOST {
+        return Err(PassedOver::NoNumberLeft);
+    }
+    let line = fitted_line(input, class, &sample(input, pixels)).ok_or(PassedOver::NoExtent)?;
+    let is_far = rules.through_black && line.foot().norm() > input.used.radius_counts();
     if is_far { Err(PassedOver::FarFromBlack) } else { Ok(line) }
 }
 
