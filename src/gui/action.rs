@@ -4,7 +4,7 @@ use super::pane::Pane;
 use crate::app::{Direction, StepUnit, Switching};
 use crate::params::{Method, Preset};
 use crate::raster::RegionId;
-use crate::view::{ElsewhereKind, Layer, Theme, Tool};
+use crate::view::{ArrangementKind, ElsewhereKind, Layer, Theme, Tool};
 
 /// What a key or a menu does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -79,6 +79,10 @@ pub enum Action {
     Region(bool),
     /// Show this layer in the image view.
     Layer(Layer),
+    /// Show one layer or two in the image view.
+    Arrange(ArrangementKind),
+    /// Show this layer as the second one of the image view.
+    SecondLayer(Layer),
     /// Use this tool in the image view, and in the color space view where it has the tool.
     Tool(Tool),
     /// Keep the result to compare with, or drop the kept one.

@@ -8,7 +8,7 @@ use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
 use crate::params::{Method, Preset};
 use crate::truth::sample::SAMPLES;
-use crate::view::{ElsewhereKind, Layer};
+use crate::view::{ArrangementKind, ElsewhereKind, Layer};
 use egui::{Button, Id, Key, Modifiers, RichText, ScrollArea, TextEdit, Ui};
 
 /// An action with the name under which it is found.
@@ -26,6 +26,13 @@ fn entries() -> Vec<Entry> {
     let layers = Layer::ALL
         .into_iter()
         .map(|layer| Entry { action: Action::Layer(layer), name: format!("Image: layer {}", layer.name()) });
+    let arrangements = ArrangementKind::ALL
+        .into_iter()
+        .map(|kind| Entry { action: Action::Arrange(kind), name: format!("Image: {}", kind.name()) });
+    let second_layers = Layer::ALL.into_iter().map(|layer| Entry {
+        action: Action::SecondLayer(layer),
+        name: format!("Image: second layer {}", layer.name()),
+    });
     let layer_files = Layer::ALL.into_iter().flat_map(|layer| {
         LayerFile::ALL.map(|file| Entry {
             action: Action::ExportLayer(layer, file),
@@ -58,7 +65,15 @@ fn entries() -> Vec<Entry> {
     ];
     let others = others.map(|(action, name)| Entry { action, name: name.to_owned() });
     let of_menus = choices_of_menus();
-    for entry in keyed.chain(layers).chain(panes).chain(of_menus).chain(layer_files).chain(others) {
+    for entry in keyed
+        .chain(layers)
+        .chain(arrangements)
+        .chain(second_layers)
+        .chain(panes)
+        .chain(of_menus)
+        .chain(layer_files)
+        .chain(others)
+    {
         let opens_a_list = matches!(entry.action, Action::Palette | Action::Menus);
         if !opens_a_list && entries.iter().all(|known| known.action != entry.action) {
             entries.push(entry);
@@ -123,7 +138,7 @@ impl CommandPalette {
     }
 
     /// Closes the palette, and gives the focus back.
-    fn close(&mut self, ctx: &egui::Context) {
+    pub fn close(&mut self, ctx: &egui::Context) {
         if let Some(id) = self.focus_before.take() {
             ctx.memory_mut(|memory| memory.request_focus(id));
         }
@@ -230,10 +245,14 @@ mod tests {
         let (shown, unnamed) = shown_rows(&State::default());
         let entries = entries();
         let keyed = named_actions().map(|(_, _, action)| action);
-        for action in shown.iter().copied().chain(keyed) {
+        let arrangements = ArrangementKind::ALL.map(Action::Arrange);
+        let is_missing = |action: &Action| {
             let opens_a_list = matches!(action, Action::Palette | Action::Menus);
-            assert!(opens_a_list || entries.iter().any(|entry| entry.action == action), "{action:?}");
-        }
+            !opens_a_list && entries.iter().all(|entry| entry.action != *action)
+        };
+        let missing: Vec<_> =
+            shown.iter().copied().chain(keyed).chain(arrangements).filter(is_missing).collect();
+        assert!(missing.is_empty(), "actions without an entry: {missing:?}");
         // Submenus, and the name of the photograph.
         let no_commands = ["Open recent", "Sample scenes", "Read as", "Presets of table 6", ""];
         let forgotten: Vec<_> = unnamed.iter().filter(|name| !no_commands.contains(&name.as_str())).collect();

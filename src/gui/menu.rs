@@ -16,7 +16,7 @@ use crate::app::{JobCommand, StepUnit, Switching};
 use crate::params::{Method, Preset};
 use crate::photo::{EncodingChoice, FULL_SCALE_COUNTS, ReadOptions};
 use crate::truth::sample::{SAMPLES, THREE_LAMPS};
-use crate::view::{ElsewhereKind, Origin, Theme};
+use crate::view::{ArrangementKind, ElsewhereKind, Origin, Theme};
 use egui::{Button, Checkbox, RadioButton, Response, Ui, Widget};
 
 /// A way to read the photograph's file, which the menu offers.
@@ -224,7 +224,7 @@ fn edit(ui: &mut Ui, cx: &mut PanelContext) {
     item(ui, cx, "Analyze the whole picture", Action::AnalyzeAll, state.document.area.is_some());
 }
 
-/// The menu of panels, zoom and themes.
+/// The menu of panels, zoom, one or two layers, and themes.
 fn view(ui: &mut Ui, cx: &mut PanelContext, dock: &mut Dock) {
     for pane in Pane::ALL {
         let mut visible = dock.is_visible(pane);
@@ -245,6 +245,11 @@ fn view(ui: &mut Ui, cx: &mut PanelContext, dock: &mut Dock) {
         ("Zoom to 100 %", Action::OneToOne),
     ] {
         item(ui, cx, text, action, open);
+    }
+    ui.separator();
+    let now = cx.state.view.image.arrangement.kind();
+    for kind in ArrangementKind::ALL {
+        choice(ui, cx, kind.name(), Action::Arrange(kind), [kind == now, open]).on_hover_text(kind.meaning());
     }
     ui.separator();
     for (theme, name) in THEMES {

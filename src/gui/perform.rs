@@ -82,6 +82,8 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
         Action::UseTheme(theme) => cx.send(ViewCommand::Theme(theme)),
         Action::Debug(action) => move_cursor(action, cx),
         Action::Layer(_)
+        | Action::Arrange(_)
+        | Action::SecondLayer(_)
         | Action::Tool(_)
         | Action::Fit
         | Action::OneToOne
@@ -90,12 +92,14 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
     }
 }
 
-/// Changes the layer, tool, zoom, fill or readout of the image view.
+/// Changes the layers, tool, zoom, fill or readout of the image view.
 fn change_image_view(action: Action, cx: &mut PanelContext) {
     use crate::view::Fill;
     let mut image = cx.state.view.image.clone();
     match action {
         Action::Layer(layer) => image.layer = layer,
+        Action::Arrange(kind) => image.arrange(kind),
+        Action::SecondLayer(layer) => image.show_beside(layer),
         Action::Tool(tool) => {
             image.tool = tool;
             let mut cube = cx.state.view.cube.clone();

@@ -91,7 +91,8 @@ pub use replay::{
 pub(crate) use replay::{candidate_pixels, growth_pixels, measured_and_ignored, pixels_of_region, rings};
 pub(crate) use runs::MaskRuns;
 pub use settings::{
-    Arrangement, ColorBy, ColorSpace, CubeSettings, ImageSettings, PlaneSettings, ProfileLine, Theme, Tool,
+    Arrangement, ArrangementKind, ColorBy, ColorSpace, CubeSettings, ImageSettings, PlaneSettings,
+    ProfileLine, Theme, Tool,
 };
 pub use shapes::{
     CursorShapes, RegionShapes, cluster_ellipsoid, cursor_shapes, dark_sphere, illuminant_line,

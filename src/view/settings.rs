@@ -26,6 +26,51 @@ pub enum Arrangement {
     SideBySide,
 }
 
+impl Arrangement {
+    /// Which of the arrangements it is, wherever the line of a wipe stands.
+    pub const fn kind(self) -> ArrangementKind {
+        match self {
+            Self::Single => ArrangementKind::Single,
+            Self::Wipe(_) => ArrangementKind::Wipe,
+            Self::SideBySide => ArrangementKind::SideBySide,
+        }
+    }
+}
+
+/// An [`Arrangement`] without the place of a wipe's line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ArrangementKind {
+    /// [`Arrangement::Single`].
+    Single,
+    /// [`Arrangement::Wipe`].
+    Wipe,
+    /// [`Arrangement::SideBySide`].
+    SideBySide,
+}
+
+impl ArrangementKind {
+    /// All kinds.
+    pub const ALL: [Self; 3] = [Self::Single, Self::Wipe, Self::SideBySide];
+
+    /// The name on buttons and in menus.
+    pub const fn name(self) -> &'static str {
+        match self {
+            Self::Single => "One layer",
+            Self::Wipe => "Wipe between two layers",
+            Self::SideBySide => "Side by side, two layers",
+        }
+    }
+
+    /// What one sees and does.
+    pub const fn meaning(self) -> &'static str {
+        match self {
+            Self::Single => "One layer in the whole view",
+            Self::Wipe => "A wipe between two layers: drag the line",
+            Self::SideBySide => "Two layers side by side, panned and zoomed as one",
+        }
+    }
+}
+
 /// What a drag in a picture does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
 pub enum Tool {
@@ -100,6 +145,28 @@ impl ImageSettings {
     /// Whether one of the layers on the screen is this one.
     pub fn shows(&self, layer: Layer) -> bool {
         self.layer == layer || (self.arrangement != Arrangement::Single && self.other == layer)
+    }
+
+    /// Shows one layer or two. A wipe that is shown already keeps its line. Two views of one layer show nothing that one view does not
+    /// show: the second layer becomes another one.
+    pub fn arrange(&mut self, kind: ArrangementKind) {
+        self.arrangement = match (kind, self.arrangement) {
+            (ArrangementKind::Single, _) => Arrangement::Single,
+            (ArrangementKind::Wipe, wipe @ Arrangement::Wipe(_)) => wipe,
+            (ArrangementKind::Wipe, _) => Arrangement::Wipe(0.5),
+            (ArrangementKind::SideBySide, _) => Arrangement::SideBySide,
+        };
+        if kind != ArrangementKind::Single && self.other == self.layer {
+            self.other = if self.layer == Layer::Input { Layer::Body } else { Layer::Input };
+        }
+    }
+
+    /// Shows a layer as the second one, beside the first where one layer alone was shown.
+    pub fn show_beside(&mut self, layer: Layer) {
+        self.other = layer;
+        if self.arrangement == Arrangement::Single {
+            self.arrangement = Arrangement::SideBySide;
+        }
     }
 
     /// How layers are drawn with these settings; `selected` is the region that has its full color while all others are dimmed.

@@ -2,7 +2,7 @@
 
 use crate::gui::icons::icon_button;
 use crate::gui::theme::ThemeColors;
-use crate::view::{Arrangement, Fill, Tool};
+use crate::view::{ArrangementKind, Fill, Tool};
 use egui::{Color32, Painter, Pos2, Rect, Response, Shape, Stroke, Ui, pos2, vec2};
 
 pub use crate::gui::icons::SIDE_PT;
@@ -13,7 +13,7 @@ pub enum ToolbarIcon {
     /// A tool of the image panel.
     Tool(Tool),
     /// One layer, or the arrangement of two.
-    Arrangement(Arrangement),
+    Arrangement(ArrangementKind),
     /// Filled areas or outlines.
     Fill(Fill),
     /// The display settings exposure, gamma and opacity.
@@ -40,15 +40,15 @@ fn draw(painter: &Painter, square: Rect, icon: ToolbarIcon, color: Color32) {
     let frame = |rect| painter.rect_stroke(rect, 1.0, stroke, egui::StrokeKind::Middle);
     match icon {
         ToolbarIcon::Tool(tool) => draw_tool(painter, tool, stroke, at),
-        ToolbarIcon::Arrangement(Arrangement::Single) => {
+        ToolbarIcon::Arrangement(ArrangementKind::Single) => {
             frame(part(1.5, 2.5, 12.5, 11.5));
         }
-        ToolbarIcon::Arrangement(Arrangement::Wipe(_)) => {
+        ToolbarIcon::Arrangement(ArrangementKind::Wipe) => {
             frame(part(1.5, 2.5, 12.5, 11.5));
             painter.rect_filled(part(7.0, 2.5, 12.5, 11.5), 0.0, color.gamma_multiply(0.55));
             painter.line_segment([at(7.0, 0.5), at(7.0, 13.5)], stroke);
         }
-        ToolbarIcon::Arrangement(Arrangement::SideBySide) => {
+        ToolbarIcon::Arrangement(ArrangementKind::SideBySide) => {
             frame(part(0.8, 3.0, 6.2, 11.0));
             frame(part(7.8, 3.0, 13.2, 11.0));
         }

@@ -7,7 +7,7 @@ use crate::gui::icons::{Icon, button};
 use crate::gui::shortcuts::keys_of;
 use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::gui::widgets::{clickable, keep_unless_edited};
-use crate::view::{Arrangement, Fill, ImageSettings, Layer, Tool};
+use crate::view::{Arrangement, ArrangementKind, Fill, ImageSettings, Layer, Tool};
 use egui::accesskit::Role;
 use egui::{
     Button, ComboBox, DragValue, Label, Popup, PopupCloseBehavior, Response, RichText, Sense, Slider, Ui,
@@ -113,23 +113,12 @@ fn layer_menu(
 
 /// Shows the buttons for one layer, a wipe, and two views.
 fn arrangement_buttons(ui: &mut Ui, palette: &ThemeColors, settings: &mut ImageSettings) {
-    let now = settings.arrangement;
-    let wipe_share = if let Arrangement::Wipe(share) = now { share } else { 0.5 };
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
-        for (choice, name, tip) in [
-            (Arrangement::Single, "One layer", "One layer"),
-            (Arrangement::Wipe(wipe_share), "Wipe", "A wipe between two layers: drag the line"),
-            (Arrangement::SideBySide, "Side by side", "Two layers side by side, panned and zoomed as one"),
-        ] {
-            if icons::toggle(ui, palette, ToolbarIcon::Arrangement(choice), now == choice, name, tip)
-                .clicked()
-            {
-                settings.arrangement = choice;
-                if choice != Arrangement::Single && settings.other == settings.layer {
-                    // Two views of one layer show nothing that one view does not show.
-                    settings.other = if settings.layer == Layer::Input { Layer::Body } else { Layer::Input };
-                }
+        for kind in ArrangementKind::ALL {
+            let (icon, on) = (ToolbarIcon::Arrangement(kind), settings.arrangement.kind() == kind);
+            if icons::toggle(ui, palette, icon, on, kind.name(), kind.meaning()).clicked() {
+                settings.arrange(kind);
             }
         }
     });

@@ -1,12 +1,12 @@
 //! Tests of the command palette, the context menus, and of a layout that does not move while the debugger's cursor does.
 
 use crate::window::{
-    Window, answer, apply, at, click, inside, item, marked, open_sample, press, region, says, state, tiny,
-    tiny_window, window, zoom_in,
+    Window, answer, apply, at, choose, click, inside, item, marked, open_sample, press, region, says, state,
+    tiny, tiny_window, window, zoom_in,
 };
 use dichroscope::app::{Command, DebugCommand, Edit};
 use dichroscope::truth::sample;
-use dichroscope::view::{Item, Layer, Theme};
+use dichroscope::view::{Arrangement, ArrangementKind, Item, Layer, Theme};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2};
 use egui_kittest::kittest::Queryable;
@@ -116,6 +116,30 @@ fn the_zoom_is_found_in_the_palette() {
         window.run_steps(3);
         assert_eq!(state(&window).view.image.zoom, zoom, "{name}");
     }
+}
+
+#[test]
+fn one_layer_or_two_are_arranged_from_the_palette_and_the_menu() {
+    let mut window = tiny_window();
+    let by_palette = |window: &mut Window, letters: &str| {
+        press(window, Modifiers::COMMAND, Key::P);
+        type_text(window, letters);
+        press(window, Modifiers::NONE, Key::Enter);
+        window.run_steps(3);
+        let image = &state(window).view.image;
+        (image.arrangement, image.layer, image.other)
+    };
+    assert_eq!(by_palette(&mut window, "wipe"), (Arrangement::Wipe(0.5), Layer::Input, Layer::Body));
+    assert_eq!(by_palette(&mut window, "one layer"), (Arrangement::Single, Layer::Input, Layer::Body));
+    let beside = by_palette(&mut window, "second layer noise");
+    assert_eq!(beside, (Arrangement::SideBySide, Layer::Input, Layer::Noise));
+    choose(&mut window, "View", ArrangementKind::Single.name());
+    choose(&mut window, "View", ArrangementKind::SideBySide.name());
+    assert_eq!(state(&window).view.image.arrangement, Arrangement::SideBySide);
+    by_palette(&mut window, "one layer");
+    by_palette(&mut window, "image: noise");
+    let wiped = by_palette(&mut window, "wipe");
+    assert_eq!(wiped, (Arrangement::Wipe(0.5), Layer::Noise, Layer::Input), "never a layer beside itself");
 }
 
 #[test]

@@ -4,7 +4,9 @@ use crate::window::{Fixture, SIZE, Window, region, with_gpu};
 use dichroscope::app::{Edit, ViewCommand, ViewSettings};
 use dichroscope::gui::testing::Placement;
 use dichroscope::raster::PixelIndex;
-use dichroscope::view::{Arrangement, ImageSettings, Item, Layer, Picture, ProfileLine, Tool, marking};
+use dichroscope::view::{
+    Arrangement, ArrangementKind, ImageSettings, Item, Layer, Picture, ProfileLine, Tool, marking,
+};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, pos2, vec2};
 use egui_kittest::kittest::Queryable;
@@ -101,7 +103,7 @@ fn a_layer_is_chosen_by_name_and_every_layer_is_drawn() {
             look(&mut harness, |settings| (settings.layer, settings.arrangement) = (layer, arrangement));
         }
     }
-    harness.get_by_label("Wipe").click();
+    harness.get_by_label(ArrangementKind::Wipe.name()).click();
     harness.run_steps(3);
     assert!(matches!(view(&harness).image.arrangement, Arrangement::Wipe(_)));
 }
