@@ -1,5 +1,8 @@
 //! Painted layers and marks, and their textures. A layer is painted when its inputs changed; visible tiles are uploaded.
 
+#[cfg(test)]
+mod tests;
+
 use super::geometry::{Placement, level_for};
 use super::tiles::{TILE, Tile, copies_of_marks, texture_options};
 use crate::app::State;
@@ -16,8 +19,10 @@ use std::time::Duration;
 
 /// Number of pixels above which a picture is painted on a thread, so that no frame waits for the picture.
 pub const LARGE_PX: usize = 1 << 20;
-/// Largest number of textures, and largest number of pixels of all textures together.
-const MOST: (usize, usize) = (8, 40 << 20);
+/// Largest number of textures.
+const MOST_TEXTURES: usize = 8;
+/// Largest number of pixels of all textures together.
+const MOST_PX: usize = 40 << 20;
 
 /// The place in the image view that a texture is shown at.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -203,7 +208,6 @@ impl PartialEq for TextureKey {
 }
 
 /// The textures that are kept.
-#[derive(Default)]
 pub struct TextureCache {
     textures: Vec<LayerTexture>,
     /// The texture that each slot showed last, which stays until the requested texture is painted.
@@ -213,7 +217,27 @@ pub struct TextureCache {
     painting_key: Option<TextureKey>,
     /// The texture whose painting ended by a panic, and which is not tried again.
     failed_key: Option<TextureKey>,
+    /// The texture that was painted last on a thread, until a slot shows it. Another slot may be asked first: dropped then, the texture
+    /// would be painted again and again, and never shown.
+    painted_key: Option<TextureKey>,
+    /// Largest number of pixels of all textures together, unless those in use have more.
+    most_px: usize,
     uses: u64,
+}
+
+impl Default for TextureCache {
+    fn default() -> Self {
+        Self {
+            textures: Vec::new(),
+            shown_last: [const { None }; 4],
+            painting: None,
+            painting_key: None,
+            failed_key: None,
+            painted_key: None,
+            most_px: MOST_PX,
+            uses: 0,
+        }
+    }
 }
 
 impl TextureCache {
@@ -235,6 +259,7 @@ impl TextureCache {
         }
         let shown_last = &mut self.shown_last[slot as usize];
         if self.textures.iter().any(|texture| texture.key == key) {
+            self.painted_key.take_if(|painted| *painted == key);
             *shown_last = Some(key);
         }
         let wanted = shown_last
@@ -255,6 +280,7 @@ impl TextureCache {
         }
         if let Some(mut texture) = painted {
             texture.last_use = self.uses;
+            self.painted_key = Some(texture.key.clone());
             self.add_texture(texture);
         }
     }
@@ -290,12 +316,14 @@ impl TextureCache {
 
     /// Drops textures of results that are gone, and then the oldest ones beyond the limits.
     fn drop_oldest(&mut self) {
-        let shown_last = &self.shown_last;
-        let in_use = |texture: &LayerTexture| shown_last.iter().flatten().any(|key| *key == texture.key);
+        let (shown_last, painted) = (&self.shown_last, &self.painted_key);
+        let in_use = |texture: &LayerTexture| {
+            shown_last.iter().chain([painted]).flatten().any(|key| *key == texture.key)
+        };
         self.textures.retain(|texture| in_use(texture) || !texture.is_outdated());
         loop {
             let pixels: usize = self.textures.iter().map(|texture| texture.levels[0].len()).sum();
-            if self.textures.len() <= MOST.0 && pixels <= MOST.1 {
+            if self.textures.len() <= MOST_TEXTURES && pixels <= self.most_px {
                 return;
             }
             let free = self.textures.iter().enumerate().filter(|(_, texture)| !in_use(texture));
