@@ -2,6 +2,7 @@
 
 mod hypothesis_table;
 mod light_summary;
+mod table_columns;
 
 use super::theme::{SMALL_PT, ThemeColors};
 use super::{PanelContext, context_menu, widgets};
@@ -10,7 +11,8 @@ use crate::describe::sentences;
 use crate::intrinsic::{HighlightBranch, RegionReflection};
 use crate::view::{Item, ResultSnapshot};
 use egui::{Align, Button, Color32, Label, Layout, RichText, Sense, Ui};
-use egui_extras::{Column, TableBuilder, TableRow};
+use egui_extras::{TableBuilder, TableRow};
+use table_columns::{TableColumn, count_width, fitting, widest, with_columns};
 
 /// Height of a row, points.
 const ROW_PT: f32 = 18.0;
@@ -66,8 +68,18 @@ const COLUMNS: [(SortKey, &str, f32, &str); 8] = [
     (SortKey::Warnings, "notes", 150.0, "What to beware of in this region."),
 ];
 
+/// The columns that a narrow panel leaves out, the first one first: the surface vectors are all alike.
+const DISPENSABLE: [SortKey; 5] =
+    [SortKey::Surface, SortKey::Highlight, SortKey::Angle, SortKey::Rms, SortKey::Body];
+
 /// Width of a column that shows a vector by its color alone, points.
 const CHIP_COLUMN_PT: f32 = 24.0;
+
+/// Width of a color and the gap to the number after it, points.
+const CHIP_PT: f32 = 18.0;
+
+/// Least width of the column of the regions' numbers, whose heading has an arrow, points.
+const LEAST_NUMBER_PT: f32 = 26.0;
 
 /// Least width of the notes in a narrow panel, points: the notes are cut with dots, and whole in the tooltip.
 const NARROW_NOTES_PT: f32 = 40.0;
@@ -121,39 +133,30 @@ impl RegionsPanel {
         });
     }
 
-    /// Shows the table of the regions. Where the panel is narrow, vectors are shown by their colors alone, so that the notes
-    /// have room.
+    /// Shows the table of the regions. Where the panel is narrow, vectors are shown by their colors alone, and columns are left out, so
+    /// that the others have room.
     fn table(&mut self, ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
-        let gap_pt = if ui.available_width() < width_with_numbers_of(SortKey::Body) { 4.0 } else { 6.0 };
+        let ui_width = ui.available_width();
+        let gap_pt = if ui_width < width_with_numbers_of(SortKey::Body) { 4.0 } else { 6.0 };
         ui.spacing_mut().item_spacing = egui::vec2(gap_pt, 1.0);
         let selected = cx.state.selected_region();
-        let order = self.order(&shown.analysis.intrinsic.regions);
-        let mut hovered = None;
-        let ui_width = ui.available_width();
         let regions = &shown.analysis.intrinsic.regions;
-        let pixels_pt = count_width(ui, regions.iter().map(|region| region.pixels));
-        let highlight_pt = count_width(ui, regions.iter().map(|region| region.highlight_pixels));
+        let order = self.order(regions);
+        let mut hovered = None;
+        let columns = fitting(column_widths(ui, regions), &DISPENSABLE, gap_pt, ui_width);
+        let shows_numbers = |key: SortKey| ui_width >= width_with_numbers_of(key);
         // The cells take no keyboard focus: each would be a stop of Tab. The keys [ and ] select regions.
         let mut table = TableBuilder::new(ui).striped(false).sense(Sense::CLICK).resizable(false);
-        let shows_numbers = |key: SortKey| ui_width >= width_with_numbers_of(key);
-        for (key, _, width, _) in COLUMNS {
-            let last = key == SortKey::Warnings;
-            let width = match key {
-                SortKey::Body | SortKey::Surface if !shows_numbers(key) => CHIP_COLUMN_PT,
-                SortKey::Pixels => width.max(pixels_pt),
-                SortKey::Highlight => width.max(highlight_pt),
-                SortKey::Warnings if !shows_numbers(SortKey::Body) => NARROW_NOTES_PT,
-                SortKey::Warnings if !shows_numbers(SortKey::Surface) => 110.0,
-                _ => width,
-            };
-            table = table.column(column(width, last));
-        }
+        table = with_columns(table, &columns);
         if let Some(row) = selected.and_then(|id| order.iter().position(|&index| index == id.index())) {
             table = table.scroll_to_row(row, None);
         }
         table
             .header(ROW_PT, |mut header| {
                 for (key, title, _, tip) in COLUMNS {
+                    if !columns.iter().any(|(column, _)| *column == key) {
+                        continue;
+                    }
                     // Of "body C_b", a narrow column shows the symbol.
                     let symbol = title.rsplit(' ').next().unwrap_or(title);
                     let shown_title = if is_vector(key) && !shows_numbers(key) { symbol } else { title };
@@ -162,10 +165,11 @@ impl RegionsPanel {
             })
             .body(|body| {
                 body.rows(ROW_PT, order.len(), |mut row| {
-                    let region = &shown.analysis.intrinsic.regions[order[row.index()]];
+                    let region = &regions[order[row.index()]];
                     row.set_selected(selected == Some(region.id));
-                    let vectors = [SortKey::Body, SortKey::Surface].map(shows_numbers);
-                    cells(&mut row, cx.palette, region, shown, vectors);
+                    for &(key, _) in &columns {
+                        table_cell(&mut row, cx.palette, key, region, shown, shows_numbers(key));
+                    }
                     let response = row.response();
                     if response.hovered() {
                         hovered = Some(Item::Region(region.id));
@@ -215,17 +219,29 @@ impl RegionsPanel {
     }
 }
 
-/// A column of a table, at least `width` points wide; the last one takes the rest of the panel.
-fn column(width: f32, last: bool) -> Column {
-    // A column that is not clipped never gets narrower than its contents were, and these fill it.
-    if last { Column::remainder().at_least(width).clip(true) } else { Column::exact(width) }
+/// The least widths of the columns in a panel of this width. Numbers are never cut.
+fn column_widths(ui: &Ui, regions: &[RegionReflection]) -> Vec<TableColumn<SortKey>> {
+    let shows_numbers = |key: SortKey| ui.available_width() >= width_with_numbers_of(key);
+    let width_of = |(key, _, width, _): (SortKey, &str, f32, &str)| {
+        let width = match key {
+            SortKey::Id => number_width(ui, regions.iter().map(|region| region.id.to_string())),
+            SortKey::Body | SortKey::Surface if !shows_numbers(key) => CHIP_COLUMN_PT,
+            SortKey::Pixels => width.max(count_width(ui, regions.iter().map(|region| region.pixels))),
+            SortKey::Highlight => {
+                width.max(count_width(ui, regions.iter().map(|region| region.highlight_pixels)))
+            }
+            SortKey::Warnings if !shows_numbers(SortKey::Body) => NARROW_NOTES_PT,
+            SortKey::Warnings if !shows_numbers(SortKey::Surface) => 110.0,
+            _ => width,
+        };
+        (key, width)
+    };
+    COLUMNS.map(width_of).to_vec()
 }
 
-/// Width of a column in which none of these numbers is cut, points.
-fn count_width(ui: &Ui, counts: impl Iterator<Item = usize>) -> f32 {
-    let font = egui::TextStyle::Body.resolve(ui.style());
-    let text = crate::view::grouped(counts.max().unwrap_or(0));
-    ui.painter().layout_no_wrap(text, font, egui::Color32::WHITE).size().x.ceil()
+/// Width of a column of colors with numbers, points.
+fn number_width(ui: &Ui, numbers: impl Iterator<Item = String>) -> f32 {
+    (CHIP_PT + widest(ui, numbers)).max(LEAST_NUMBER_PT)
 }
 
 /// Hue of a color, radians: the angle around the gray diagonal, by which colors are sorted.
@@ -243,56 +259,62 @@ fn layout_of(key: SortKey) -> Layout {
     }
 }
 
-/// Shows the cells of a row.
-///
-/// `shows_numbers`: whether body and surface reflection vector are shown with their numbers.
-fn cells(
+/// Shows a cell of a row. `shows_numbers`: whether a vector is shown with its numbers.
+fn table_cell(
     row: &mut TableRow,
     palette: &ThemeColors,
+    key: SortKey,
     region: &RegionReflection,
     shown: &ResultSnapshot,
-    shows_numbers: [bool; 2],
+    shows_numbers: bool,
 ) {
     let dash = || RichText::new("\u{2013}").color(palette.secondary);
-    let plain = |ui: &mut Ui, text: RichText| ui.add(Label::new(text).selectable(false));
-    cell(row, |ui| {
-        let color = shown.region_colors.get(region.id.index()).copied().unwrap_or([128; 3]);
-        widgets::chip(ui, palette, widgets::color(color), &format!("color of region {}", region.id));
-        plain(ui, RichText::new(region.id.to_string()));
-    });
-    let number = |row: &mut TableRow, text: RichText| {
-        row.col(|ui| {
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| plain(ui, text));
-        });
-    };
-    number(row, RichText::new(crate::view::grouped(region.pixels)));
-    cell(row, |ui| vector(ui, palette, "body color", Some(region.body), shows_numbers[0]));
-    cell(row, |ui| vector(ui, palette, "color of the light on it", region.surface, shows_numbers[1]));
-    number(row, region.angle_deg.map_or_else(dash, |angle| RichText::new(format!("{angle:.1}\u{b0}"))));
-    let highlight = (region.highlight_pixels > 0).then(|| crate::view::grouped(region.highlight_pixels));
+    match key {
+        SortKey::Id => cell(row, |ui| {
+            let color = shown.region_colors.get(region.id.index()).copied().unwrap_or([128; 3]);
+            widgets::chip(ui, palette, widgets::color(color), &format!("color of region {}", region.id));
+            ui.add(Label::new(region.id.to_string()).selectable(false));
+        }),
+        SortKey::Pixels => number_cell(row, RichText::new(crate::view::grouped(region.pixels)), None),
+        SortKey::Body => {
+            cell(row, |ui| vector(ui, palette, "body color", Some(region.body), shows_numbers));
+        }
+        SortKey::Surface => {
+            cell(row, |ui| vector(ui, palette, "color of the light on it", region.surface, shows_numbers));
+        }
+        SortKey::Angle => {
+            let angle = region.angle_deg.map(|angle| RichText::new(format!("{angle:.1}\u{b0}")));
+            number_cell(row, angle.unwrap_or_else(dash), None);
+        }
+        SortKey::Highlight => {
+            let pixels = (region.highlight_pixels > 0).then(|| crate::view::grouped(region.highlight_pixels));
+            let branches = &region.highlight_branches;
+            let tip = (!branches.is_empty()).then(|| highlight_lines(branches));
+            number_cell(row, pixels.map_or_else(dash, RichText::new), tip);
+        }
+        SortKey::Rms => {
+            let rms = RichText::new(format!("{:.2}", region.fit_rms_counts));
+            if region.fit_rms_counts > region.fit_limit_counts {
+                let tip = format!("Beyond its limit of {:.1} counts (section 6).", region.fit_limit_counts);
+                number_cell(row, rms.color(palette.warning), Some(tip));
+            } else {
+                number_cell(row, rms, None);
+            }
+        }
+        SortKey::Warnings => cell(row, |ui| notes(ui, region, palette)),
+    }
+}
+
+/// Shows a number at the right edge of a cell, with a tooltip where there is one.
+fn number_cell(row: &mut TableRow, text: RichText, tip: Option<String>) {
     row.col(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let label = plain(ui, highlight.map_or_else(dash, RichText::new));
-            if !region.highlight_branches.is_empty() {
-                label.on_hover_text(highlight_lines(&region.highlight_branches));
+            let label = ui.add(Label::new(text).selectable(false));
+            if let Some(tip) = tip {
+                label.on_hover_text(tip);
             }
         });
     });
-    let rms = RichText::new(format!("{:.2}", region.fit_rms_counts));
-    row.col(|ui| {
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let is_beyond_limit = region.fit_rms_counts > region.fit_limit_counts;
-            let rms = if is_beyond_limit { rms.color(palette.warning) } else { rms };
-            let label = ui.add(Label::new(rms).selectable(false));
-            if is_beyond_limit {
-                label.on_hover_text(format!(
-                    "Beyond its limit of {:.1} counts (section 6).",
-                    region.fit_limit_counts
-                ));
-            }
-        });
-    });
-    cell(row, |ui| notes(ui, region, palette));
 }
 
 /// Shows the first of a region's warnings, in the color of warnings where the model does not fit; the tooltip has all.
@@ -336,7 +358,7 @@ fn vector(ui: &mut Ui, palette: &ThemeColors, name: &str, vector: Option<[f64; 3
     let tip = format!("{}: {r:.3} {g:.3} {b:.3}", widgets::capitalized(name));
     widgets::chip(ui, palette, brightest_color(vector), name).on_hover_text(tip);
     for value in vector.into_iter().filter(|_| shows_numbers) {
-        ui.add(Label::new(RichText::new(format!("{value:.2}").replace("0.", "."))).selectable(false));
+        ui.add(Label::new(widgets::signed(value, 2).replace("0.", ".")).selectable(false));
     }
 }
 

@@ -1,6 +1,7 @@
 //! The regions panel at the debugger's cursor: a table of the hypotheses so far; before the first one, counts of
 //! windows and areas.
 
+use super::table_columns::{TableColumn, count_width, fitting, widest, with_columns};
 use super::{ROW_PT, cell, vector};
 use crate::app::{Command, DebugCommand, Edit};
 use crate::gui::theme::ThemeColors;
@@ -46,6 +47,12 @@ const COLUMNS: [(SortKey, &str, f32, &str); 6] = [
     (SortKey::Becomes, "result", 70.0, "The region of the result that it is, or is part of."),
 ];
 
+/// The columns that a narrow panel leaves out, the first one first.
+const DISPENSABLE: [SortKey; 2] = [SortKey::Radius, SortKey::Direction];
+
+/// Width of the panel from which directions show numbers, points.
+const WIDTH_WITH_NUMBERS_PT: f32 = 430.0;
+
 /// The table's order of rows.
 #[derive(Clone, Copy, Debug, Default)]
 pub struct HypothesisTable {
@@ -72,25 +79,31 @@ impl HypothesisTable {
     /// `side`: side of a working pixel, pixels of the photograph. The record is of working pixels.
     fn table(&mut self, ui: &mut Ui, cx: &mut PanelContext, rows: &[HypothesisRow], side: usize) {
         let working_pixels = format!("{side} \u{d7} {side} px");
-        ui.spacing_mut().item_spacing = egui::vec2(6.0, 1.0);
+        let room_pt = ui.available_width();
+        let shows_numbers = room_pt >= WIDTH_WITH_NUMBERS_PT;
+        let gap_pt = if shows_numbers { 6.0 } else { 4.0 };
+        ui.spacing_mut().item_spacing = egui::vec2(gap_pt, 1.0);
         let focus = cx.state.debugger.focus();
         let order = self.order(rows);
         let mut hovered = None;
-        let pixels_pt = super::count_width(ui, rows.iter().map(|row| row.pixels as usize));
+        let columns = fitting(column_widths(ui, rows, shows_numbers), &DISPENSABLE, gap_pt, room_pt);
         let mut table = TableBuilder::new(ui).striped(false).sense(Sense::CLICK).resizable(false);
-        for (key, _, width, _) in COLUMNS {
-            let width = if key == SortKey::Pixels { width.max(pixels_pt) } else { width };
-            let last = key == SortKey::Becomes;
-            table = table.column(super::column(width, last));
-        }
+        table = with_columns(table, &columns);
         if let Some(row) = order.iter().position(|&index| Some(rows[index].hypothesis) == focus) {
             table = table.scroll_to_row(row, None);
         }
         table
             .header(ROW_PT, |mut header| {
                 for (key, title, _, tip) in COLUMNS {
+                    if !columns.iter().any(|(column, _)| *column == key) {
+                        continue;
+                    }
                     let is_count = key == SortKey::Pixels && side > 1;
-                    let title = if is_count { working_pixels.as_str() } else { title };
+                    let title = match key {
+                        _ if is_count => working_pixels.as_str(),
+                        SortKey::Direction if !shows_numbers => "d",
+                        _ => title,
+                    };
                     header.col(|ui| self.heading(ui, cx.palette, key, title, tip));
                 }
             })
@@ -98,15 +111,25 @@ impl HypothesisTable {
                 body.rows(ROW_PT, order.len(), |mut row| {
                     let row_of = &rows[order[row.index()]];
                     row.set_selected(Some(row_of.hypothesis) == focus);
-                    cells(&mut row, cx.palette, row_of, &cx.state.debugger.names);
+                    for &(key, _) in &columns {
+                        table_cell(
+                            &mut row,
+                            cx.palette,
+                            key,
+                            row_of,
+                            &cx.state.debugger.names,
+                            shows_numbers,
+                        );
+                    }
                     let response = row.response();
                     let becomes = row_of.region.map(Item::Region);
                     if response.hovered() {
                         hovered = becomes;
                     }
                     if response.clicked() {
-                        cx.send(Command::Debug(DebugCommand::Choose(Some(row_of.hypothesis))));
+                        // What is selected has a history of its own, in place of which that of the hypothesis is shown.
                         cx.commands.extend(becomes.map(|item| Edit::Select(Some(item)).into()));
+                        cx.send(Command::Debug(DebugCommand::Choose(Some(row_of.hypothesis))));
                     }
                 });
             });
@@ -157,34 +180,58 @@ impl HypothesisTable {
     }
 }
 
-/// Shows the cells of a row.
-fn cells(row: &mut TableRow, palette: &ThemeColors, row_of: &HypothesisRow, names: &RegionNames) {
+/// The least widths of the columns. Numbers and words are never cut.
+fn column_widths(ui: &Ui, rows: &[HypothesisRow], shows_numbers: bool) -> Vec<TableColumn<SortKey>> {
+    let width_of = |(key, _, width, _): (SortKey, &str, f32, &str)| {
+        let width = match key {
+            SortKey::Birth => super::number_width(ui, rows.iter().map(|row| row.hypothesis.to_string())),
+            SortKey::Pixels => width.max(count_width(ui, rows.iter().map(|row| row.pixels as usize))),
+            SortKey::Direction if !shows_numbers => super::CHIP_COLUMN_PT,
+            SortKey::Status if !shows_numbers => widest(ui, rows.iter().map(|row| row.status.text())),
+            _ => width,
+        };
+        (key, width)
+    };
+    COLUMNS.map(width_of).to_vec()
+}
+
+/// Shows a cell of a row. `shows_numbers`: whether a direction is shown with its numbers.
+fn table_cell(
+    row: &mut TableRow,
+    palette: &ThemeColors,
+    key: SortKey,
+    row_of: &HypothesisRow,
+    names: &RegionNames,
+    shows_numbers: bool,
+) {
     let has_ended = !matches!(row_of.status, Status::AtWork | Status::Stands);
     let tone = if has_ended { palette.secondary } else { palette.text };
     let plain = |ui: &mut Ui, text: String| {
         ui.add(Label::new(RichText::new(text).color(tone)).selectable(false));
     };
     let number = |row: &mut TableRow, text: String| {
-        row.col(|ui| {
-            ui.with_layout(Layout::right_to_left(Align::Center), |ui| plain(ui, text));
-        });
+        super::number_cell(row, RichText::new(text).color(tone), None);
     };
-    cell(row, |ui| {
-        let color = widgets::color(names.color(row_of.hypothesis));
-        widgets::chip(ui, palette, color, &format!("color of hypothesis {}", row_of.hypothesis));
-        plain(ui, row_of.hypothesis.to_string());
-    });
-    number(row, crate::view::grouped(row_of.pixels as usize));
-    cell(row, |ui| vector(ui, palette, "color of the line", row_of.direction, true));
-    number(row, format!("{:.1}", row_of.radius));
-    cell(row, |ui| plain(ui, row_of.status.text()));
-    cell(row, |ui| {
-        let becomes = match row_of.region {
-            None => "\u{2013}".to_owned(),
-            Some(number) => format!("\u{2192} region {number}"),
-        };
-        plain(ui, becomes);
-    });
+    match key {
+        SortKey::Birth => cell(row, |ui| {
+            let color = widgets::color(names.color(row_of.hypothesis));
+            widgets::chip(ui, palette, color, &format!("color of hypothesis {}", row_of.hypothesis));
+            plain(ui, row_of.hypothesis.to_string());
+        }),
+        SortKey::Pixels => number(row, crate::view::grouped(row_of.pixels as usize)),
+        SortKey::Direction => {
+            cell(row, |ui| vector(ui, palette, "color of the line", row_of.direction, shows_numbers));
+        }
+        SortKey::Radius => number(row, format!("{:.1}", row_of.radius)),
+        SortKey::Status => cell(row, |ui| plain(ui, row_of.status.text())),
+        SortKey::Becomes => cell(row, |ui| {
+            let becomes = match row_of.region {
+                None => "\u{2013}".to_owned(),
+                Some(number) => format!("\u{2192} region {number}"),
+            };
+            plain(ui, becomes);
+        }),
+    }
 }
 
 /// Shows the light's direction as estimated at the cursor.

@@ -4,9 +4,10 @@ use crate::window::{
     Window, apply, at, click, drag, inside, item, named, pointer, press, region, says, shown, state,
     tiny_window, undo, words, zoom_in,
 };
-use dichroscope::app::Edit;
+use dichroscope::app::{Command, DebugCommand, Edit};
 use dichroscope::gui::Pane;
 use dichroscope::raster::{PixelIndex, RegionId};
+use dichroscope::trace::Topic;
 use dichroscope::view::Item;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
@@ -98,6 +99,45 @@ fn headings_sort() {
         let mut sorted = rows(&window);
         sorted.sort_unstable();
         assert_eq!(sorted, (1..=count).collect::<Vec<_>>(), "{heading} loses nobody");
+    }
+}
+
+/// Fails where a heading or a row of the table ends beyond the panel, whose right edge is at `right`.
+#[track_caller]
+fn assert_table_ends_before(window: &Window, right: f32) {
+    for node in window.root().children_recursive() {
+        let Some(name) = words(&node) else { continue };
+        let is_of_table = ["#", "pixels", "C_b", "angle", "rms", "notes", "d", "radius", "status", "result"]
+            .contains(&&*name)
+            || name.starts_with("color of ")
+            || name.starts_with("\u{2192} region");
+        assert!(
+            !is_of_table || node.rect().right() <= right + 0.5,
+            "{name} ends at {} of {right}",
+            node.rect().right()
+        );
+    }
+}
+
+#[test]
+fn the_tables_of_a_narrow_panel_leave_columns_out_and_do_not_scroll() {
+    let mut window = tiny_window();
+    window.state_mut().show_alone(Some(Pane::Regions));
+    let seek = |window: &mut Window, n| apply(window, Command::Debug(DebugCommand::Seek(n)));
+    for width in [350.0, 260.0] {
+        window.set_size(egui::vec2(width, 300.0));
+        seek(&mut window, usize::MAX);
+        window.run_steps(3);
+        for heading in ["pixels", "rms", "notes"] {
+            assert!(width < 300.0 && heading == "rms" || says(&window, heading), "{heading} at {width}");
+        }
+        assert_table_ends_before(&window, width);
+        let trace = std::sync::Arc::clone(state(&window).debugger.trace().unwrap());
+        let slice = trace.blocks().find(|block| matches!(block.topic, Topic::Slice(_))).unwrap();
+        seek(&mut window, slice.steps.start);
+        window.run_steps(3);
+        assert!(says(&window, "status") && says(&window, "result"), "{width}");
+        assert_table_ends_before(&window, width);
     }
 }
 
