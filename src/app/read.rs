@@ -13,6 +13,9 @@ use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
 
+/// How the warning of a photograph begins whose ground truth cannot be used.
+pub(super) const TRUTH_UNUSED: &str = "the ground truth beside the photograph is not used";
+
 /// Reads the photograph at `origin`, with its ground truth where a sample or the file's folder holds one.
 ///
 /// # Errors
@@ -72,9 +75,7 @@ fn truth(origin: &Origin) -> Result<Option<GroundTruth>, String> {
         }
         Origin::Bytes { .. } => None,
     };
-    read.transpose().map_err(|error| {
-        format!("the ground truth beside the photograph is not used: {}", with_source(&error))
-    })
+    read.transpose().map_err(|error| format!("{TRUTH_UNUSED}: {}", with_source(&error)))
 }
 
 /// Reads a picture that another program made of a photograph: a diffuse picture with the options of the photograph. The report is of the
@@ -87,7 +88,7 @@ pub(super) fn elsewhere(kind: ElsewhereKind, path: &Path, picture: Arc<Picture>,
             let read = Box::new(Elsewhere { paths, pictures });
             Report::ElsewhereRead { kind, read, picture, shows }
         }
-        Err(reason) => Report::ElsewhereFailed { kind, picture, reason },
+        Err(reason) => Report::ElsewhereFailed { kind, path, picture, reason },
     }
 }
 

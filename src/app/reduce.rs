@@ -2,6 +2,7 @@
 
 mod debugger;
 mod edits;
+mod elsewhere;
 mod jobs;
 mod named_marks;
 mod photographs;

@@ -48,6 +48,8 @@ pub(super) enum Report {
     ElsewhereFailed {
         /// What the picture should have been.
         kind: ElsewhereKind,
+        /// Its file.
+        path: PathBuf,
         /// The photograph that the picture was to be read for.
         picture: Arc<Picture>,
         /// The sentence to show.

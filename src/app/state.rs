@@ -262,20 +262,19 @@ impl State {
         self.debugger.focus().map(|focus| self.debugger.names.color(focus))
     }
 
-    /// Adds a notice about the open photograph, unless a notice with the same text is shown already.
+    /// Adds a notice about the open photograph, in place of a notice with the same text.
     pub(super) fn notify(&mut self, severity: Severity, text: String) {
         self.add_notice(severity, text, self.picture.is_some());
     }
 
-    /// Adds a notice that stays when another photograph is opened, unless a notice with the same text is shown already.
+    /// Adds a notice that stays when another photograph is opened, in place of a notice with the same text.
     pub(super) fn notify_of_files(&mut self, severity: Severity, text: String) {
         self.add_notice(severity, text, false);
     }
 
     fn add_notice(&mut self, severity: Severity, text: String, of_photograph: bool) {
-        if self.notices.iter().any(|notice| notice.text == text) {
-            return;
-        }
+        // What is told again is the newest notice again: a dialog that waits for a file finds its error.
+        self.notices.retain(|notice| notice.text != text);
         self.notices_so_far += 1;
         self.notices.push(Notice { id: self.notices_so_far, severity, text, of_photograph });
     }

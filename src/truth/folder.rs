@@ -90,6 +90,11 @@ impl GroundTruth {
         })
     }
 
+    /// The file of the labels in a truth folder.
+    pub fn labels_path(folder: &Path) -> PathBuf {
+        folder.join(LABELS)
+    }
+
     /// The body reflection vector of an object; none for an unknown object and for a metal.
     pub fn body_vector(&self, id: u16) -> Option<[f64; 3]> {
         let index = self.objects.binary_search_by_key(&id, |object| object.id).ok()?;

@@ -111,6 +111,38 @@ fn what_is_wrong_with_a_file_is_said_and_changes_nothing() {
 }
 
 #[test]
+fn a_label_picture_of_the_ground_truth_that_cannot_be_used_is_told_once() {
+    let other_size = png_of_gray(&Raster::filled(3, 2, 1u8));
+    for (labels, reason) in
+        [(&b"no picture"[..], "cannot decode "), (&other_size, "the label map is 3\u{d7}2 pixels")]
+    {
+        let scene = Scene::new();
+        let assets = Path::new(TINY).parent().unwrap();
+        for name in ["truth.json", "body.exr", "surface.exr"] {
+            std::fs::copy(assets.join(name), scene.path(name)).unwrap();
+        }
+        scene.write("labels.png", labels);
+        let mut application = Application::new(Executor::Inline, || ()).unwrap();
+        let paths = ElsewherePaths { labels: Some(scene.path("labels.png")), diffuse: None };
+        application.apply(JobCommand::OpenBeside(Origin::File(scene.path("photo.png")), paths));
+        let about: Vec<_> = application.state().notices.iter().map(|notice| notice.text.as_str()).collect();
+        let [told] = about[..] else { panic!("{about:?}") };
+        assert!(told.contains(reason) && told.contains("labels.png"), "{told}");
+        assert!(told.ends_with("the ground truth, of which it is a part, is not used either"), "{told}");
+    }
+}
+
+#[test]
+fn an_error_that_is_shown_already_is_the_newest_notice_again() {
+    let mut scene = Scene::new();
+    scene.open(Labels, "small.png");
+    let before = scene.application.state().notices.clone();
+    scene.open(Labels, "small.png");
+    let after = &scene.application.state().notices;
+    assert!(after.len() == 1 && before[0].text == after[0].text && before[0].id < after[0].id, "{after:?}");
+}
+
+#[test]
 fn the_pictures_belong_to_their_photograph() {
     let mut scene = Scene::new();
     scene.open(Labels, "labels.png");

@@ -2,18 +2,19 @@
 
 use super::debugger::take_trace;
 use super::edits::{analyze, edit_params};
+use super::elsewhere::{lack_elsewhere, take_elsewhere, warning_of, with_unused_truth};
 use super::photographs::keep_open;
 use super::questions::take_progress;
 use crate::app::awaited::AfterPin;
 use crate::app::files_to_open::with_unopened;
 use crate::app::photographs::MOST_OTHERS;
 use crate::app::report::{Report, Work};
-use crate::app::state::{Restoring, own_layer};
+use crate::app::state::Restoring;
 use crate::app::{Document, Effect, Preview, Severity, State, ViewSettings, Workspace};
 use crate::params::{IlluminantSetting, Params};
 use crate::view::{
-    Elsewhere, ElsewhereKind, ElsewherePaths, Item, Layer, MaskRuns, NamedMark, NamedMarks, Origin, Picture,
-    ProfileLine, ResultSnapshot,
+    ElsewhereKind, ElsewherePaths, Item, MaskRuns, NamedMark, NamedMarks, Origin, Picture, ProfileLine,
+    ResultSnapshot,
 };
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -52,8 +53,9 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
                 take_elsewhere(state, kind, *read, shows);
             }
         }
-        Report::ElsewhereFailed { kind, picture, reason } => {
+        Report::ElsewhereFailed { kind, path, picture, reason } => {
             state.jobs.reading = None;
+            let reason = with_unused_truth(state, &path, &picture, reason);
             lack_elsewhere(state, kind, &picture, reason);
         }
         Report::Failed(reason) => {
@@ -135,36 +137,6 @@ fn read_photograph_of(state: &mut State, workspace: Box<Workspace>, path: PathBu
     }
 }
 
-/// Holds a picture of another program against the results of the photograph from now on, and shows the picture where `shows`.
-fn take_elsewhere(state: &mut State, kind: ElsewhereKind, read: Elsewhere, shows: bool) {
-    let all = state.elsewhere.take().unwrap_or_default().with(read);
-    state.elsewhere = Some(Arc::new(all));
-    if shows {
-        let layer = match kind {
-            ElsewhereKind::Labels => Layer::OtherRegions,
-            ElsewhereKind::Diffuse => Layer::OtherBody,
-        };
-        // A wipe or a second view shows the same of the result.
-        (state.view.image.layer, state.view.image.other) = (layer, own_layer(kind));
-    }
-}
-
-/// Says why a picture of another program could not be read. A layer of that picture, as a workspace may have been saved with, gives way to
-/// the layer of the result.
-fn lack_elsewhere(state: &mut State, kind: ElsewhereKind, picture: &Arc<Picture>, reason: String) {
-    let is_shown = state.picture.as_ref().is_some_and(|shown| Arc::ptr_eq(shown, picture));
-    let left = if is_shown { state.leave_layers_of(kind) } else { None };
-    let text = match left {
-        Some(layer) => format!(
-            "{reason}; the layer {} shows nothing until then, and {} is shown in its place",
-            layer.name(),
-            own_layer(kind).name()
-        ),
-        None => reason,
-    };
-    state.notify(Severity::Error, text);
-}
-
 /// Opens photographs by `open`, and names those that were closed because no more can be open.
 fn telling_what_is_closed(state: &mut State, open: impl FnOnce(&mut State) -> Vec<Effect>) -> Vec<Effect> {
     let open_ones = |state: &State| -> Vec<Origin> {
@@ -230,8 +202,7 @@ fn remember(state: &mut State, origin: &Origin) {
 fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: &ElsewherePaths) -> Vec<Effect> {
     state.jobs.reading = None;
     remember(state, &picture.origin);
-    let warnings =
-        picture.photo.warnings.iter().map(|warning| format!("{}: {warning}", picture.origin.name()));
+    let warnings = picture.photo.warnings.iter().map(|warning| warning_of(&picture, warning));
     let warnings: Vec<String> = warnings.collect();
     let restored = state.restoring.take().filter(|restoring| restoring.workspace.origin == picture.origin);
     let had_picture = state.picture.is_some();
