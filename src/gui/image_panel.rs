@@ -200,7 +200,8 @@ impl ImagePanel {
             ui.set_min_height(height - 6.0);
             cursor::beside_follow_button(ui, state, debug, |ui| match state.followed() {
                 Some(replay) => self.step_sentence.show(ui, cx, replay),
-                None => verdict_strip::show(ui, cx, shown),
+                // Beside the button the verdict may need more lines than the strip has.
+                None => verdict_strip::show_line(ui, cx, shown),
             });
         });
     }

@@ -12,7 +12,7 @@ use super::cursor_owners::{CursorOwners, CursorPlace};
 use super::{PanelContext, widgets};
 use crate::app::State;
 use crate::describe::Names;
-use crate::raster::{HypothesisId, PixelIndex};
+use crate::raster::{HypothesisId, PixelIndex, RegionId};
 use crate::view::{
     Inspection, Item, Why, histograms_at_cursor, inspect_beginning, inspect_item, inspect_item_at,
     inspect_marked, inspect_step, why,
@@ -21,8 +21,8 @@ use actions::Subject;
 use egui::{Label, RichText, ScrollArea, Ui};
 use std::sync::Arc;
 
-/// Subject of the answers: address of the photograph, pixel, and hypothesis id.
-type WhySubject = (usize, Option<PixelIndex>, Option<HypothesisId>);
+/// Subject of the answers: address of the photograph, pixel, hypothesis, and selected region.
+type WhySubject = (usize, Option<PixelIndex>, Option<HypothesisId>, Option<RegionId>);
 
 /// Version of the findings about the marked pixels: generation of the result, address of the mask, and place of the debugger's cursor,
 /// where that is followed.
@@ -38,8 +38,9 @@ pub struct InspectorPanel {
     owners: CursorOwners,
     /// The findings about the step at the cursor: generation of the trace, number of steps taken, findings.
     step: Option<(u64, usize, Option<Inspection>)>,
-    /// Height of the block of the selected item, which a hovered item keeps, so that nothing below moves with the pointer; points.
-    item_height: f32,
+    /// The selected item whose block was shown last, and the height of that block, points. A hovered item keeps the height, so that nothing
+    /// below moves with the pointer.
+    selected_block: (Option<Item>, f32),
 }
 
 impl InspectorPanel {
@@ -90,14 +91,16 @@ impl InspectorPanel {
         found: &Inspection,
         is_hovered: bool,
     ) {
-        let kept = if is_hovered { self.item_height } else { 0.0 };
+        let selected = selected_item(cx.state);
+        // The block of an item that is selected no more may be much higher than all that is shown now.
+        let kept = if is_hovered && self.selected_block.0 == selected { self.selected_block.1 } else { 0.0 };
         let subject = if is_hovered { Subject::Hovered(item) } else { Subject::Selected(item) };
         let shown = ui.scope(|ui| {
             ui.set_min_height(kept);
             block::show(ui, cx, found, subject);
         });
         if !is_hovered {
-            self.item_height = shown.response.rect.height();
+            self.selected_block = (selected, shown.response.rect.height());
         }
     }
 
@@ -143,13 +146,13 @@ impl InspectorPanel {
         let selected = cx.state.selected_region().filter(|_| pixel.is_none());
         let of_region = selected.and_then(|region| debugger.names.hypotheses_of(region).next());
         let hypothesis = debugger.chosen.filter(|_| pixel.is_none()).or(of_region);
-        if pixel.is_none() && hypothesis.is_none() {
+        if pixel.is_none() && hypothesis.is_none() && selected.is_none() {
             return;
         }
         let (names, generation) = (Arc::clone(&debugger.names), debugger.generation);
         let synchronous = shown.labels().len() <= SYNCHRONOUS_PX;
-        let key = ((Arc::as_ptr(&shown.picture) as usize, pixel, hypothesis), generation);
-        let compute = move || why(&shown, &trace, &names, pixel, hypothesis);
+        let key = ((Arc::as_ptr(&shown.picture) as usize, pixel, hypothesis, selected), generation);
+        let compute = move || why(&shown, &trace, &names, pixel, hypothesis, selected);
         if let Some(found) = self.show_answers.get(ui.ctx(), key, synchronous, compute) {
             answers::show(ui, cx, found);
         }
@@ -170,5 +173,10 @@ fn inspected_item(state: &State) -> (Option<Item>, bool) {
     if state.hover.is_some() {
         return (state.hover, true);
     }
-    (state.explained_pixel().map(Item::Pixel).or(state.document.selection.item), false)
+    (selected_item(state), false)
+}
+
+/// The clicked pixel, otherwise the selected item.
+fn selected_item(state: &State) -> Option<Item> {
+    state.explained_pixel().map(Item::Pixel).or(state.document.selection.item)
 }

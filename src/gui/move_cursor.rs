@@ -22,8 +22,7 @@ pub fn move_cursor(action: DebugAction, cx: &mut PanelContext) {
         DebugAction::Breakpoint(direction) => DebugCommand::RunTo(Goal::Breakpoint, direction),
         DebugAction::Change(direction) => {
             let Some(goal) = selected_goal(state) else {
-                let text = "changes of what: select a region, or with Alt + click a pixel".to_owned();
-                return cx.send(ViewCommand::Notify(Severity::Warning, text));
+                return cx.send(ViewCommand::Notify(Severity::Warning, why_no_goal(state)));
             };
             DebugCommand::RunTo(goal, direction)
         }
@@ -33,6 +32,21 @@ pub fn move_cursor(action: DebugAction, cx: &mut PanelContext) {
         }
     };
     cx.send(command);
+}
+
+/// Why there is nothing to run to.
+fn why_no_goal(state: &State) -> String {
+    let is_of_second_look = |region| {
+        let trace = state.debugger.trace();
+        trace.is_some_and(|trace| trace.second_look_region(region).is_some())
+    };
+    match state.selected_region() {
+        Some(region) if is_of_second_look(region) => format!(
+            "region {region} was found by the second look, in a finer picture: its steps are not on the timeline, the inspector lists them"
+        ),
+        Some(region) => format!("there is no step about region {region} on the timeline"),
+        None => "changes of what: select a region, or with Alt + click a pixel".to_owned(),
+    }
 }
 
 /// The selected item, as a goal to run to.

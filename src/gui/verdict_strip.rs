@@ -10,7 +10,8 @@ use crate::app::{Edit, ViewCommand};
 use crate::describe::Names;
 use crate::trace::Replay;
 use crate::view::{Clause, ClauseSubject, CubeSettings, ImageSettings, Item, Layer, ResultSnapshot, verdict};
-use egui::{Align2, Area, Frame, Label, Link, Order, RichText, ScrollArea, Sense, Ui};
+use egui::text::LayoutJob;
+use egui::{Align2, Area, FontId, Frame, Label, Link, Order, RichText, Sense, Ui};
 
 /// Largest width of the sentence over the picture, points.
 const OVER_PICTURE_PT: f32 = 520.0;
@@ -93,7 +94,7 @@ pub struct StepSentence {
 }
 
 impl StepSentence {
-    /// Shows the sentence in place of the verdict, in the height of `ui`.
+    /// Shows the sentence in place of the verdict, in the height of `ui`; what does not fit is in the tooltip.
     pub fn show(&mut self, ui: &mut Ui, cx: &PanelContext, replay: &Replay) {
         let (generation, at) = (cx.state.debugger.generation, replay.at());
         let known = self.shown.as_ref().is_some_and(|(of, step, _)| (*of, *step) == (generation, at));
@@ -105,9 +106,12 @@ impl StepSentence {
             self.shown = Some((generation, at, sentence));
         }
         let Some((_, _, sentence)) = &self.shown else { return };
-        ScrollArea::vertical().max_height(ui.available_height()).show(ui, |ui| {
-            ui.add(Label::new(RichText::new(sentence).size(BODY_PT)).wrap()).on_hover_text(sentence);
-        });
+        let (font, color) = (FontId::proportional(BODY_PT), cx.palette.text);
+        let row_pt = ui.fonts_mut(|fonts| fonts.row_height(&font));
+        let mut job = LayoutJob::simple(sentence.clone(), font, color, ui.available_width());
+        // As many whole rows as there is height for: a row is not cut through its letters.
+        job.wrap.max_rows = ((ui.available_height() / row_pt) as usize).max(1);
+        ui.add(Label::new(job).show_tooltip_when_elided(false)).on_hover_text(sentence);
     }
 }
 

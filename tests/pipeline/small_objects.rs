@@ -199,7 +199,7 @@ fn the_window_tells_what_the_second_look_decided_about_a_pixel() {
         (0..shown.labels().len()).map(PixelIndex::from_index).filter(in_region).collect();
     let pixel = pixels[pixels.len() / 2];
     assert!(record.has_looked_at(pixel));
-    let answers = why(shown, trace, &state.debugger.names, Some(pixel), None);
+    let answers = why(shown, trace, &state.debugger.names, Some(pixel), None, None);
     let (_, history) = answers.pixel.unwrap();
     assert!(history[0].text.contains("the second look found it"), "{}", history[0].text);
     assert!(
@@ -213,6 +213,11 @@ fn the_window_tells_what_the_second_look_decided_about_a_pixel() {
     assert!(history.last().is_some_and(|sentence| !sentence.text.contains("second look")));
     let (of, made_of) = answers.region.unwrap();
     assert!(of == region && !made_of.is_empty());
+    let of_region = why(shown, trace, &state.debugger.names, None, None, Some(region));
+    assert!(
+        of_region.region == Some((region, made_of)),
+        "the same where the region is selected and no pixel"
+    );
 }
 
 #[test]

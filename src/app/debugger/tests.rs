@@ -5,7 +5,7 @@ use crate::params::{Parameter, Setting};
 use crate::raster::{HypothesisId, PixelIndex, RegionId};
 use crate::trace::{Event, Kind, Stage, Step, Topic, WindowClassified};
 use crate::view::Origin;
-use crate::view::{Why, growth, rings, watch, why};
+use crate::view::{Item, Why, growth, rings, watch, why};
 use proptest::prelude::*;
 
 const TINY: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png");
@@ -454,7 +454,7 @@ fn the_history_of_a_pixel_is_newest_first_with_hypothesis_and_region() {
     let names = &state.debugger.names;
     let pixel = shown.labels().as_slice().iter().position(|&label| label == 1).unwrap();
     let pixel = PixelIndex::from_index(pixel);
-    let answers = why(shown, &trace, names, Some(pixel), None);
+    let answers = why(shown, &trace, names, Some(pixel), None, None);
     let (about, history) = answers.pixel.unwrap();
     assert_eq!(about, pixel);
     assert_eq!(history.first().map(|account| account.stage), Some(Stage::Split), "{history:?}");
@@ -467,12 +467,24 @@ fn the_history_of_a_pixel_is_newest_first_with_hypothesis_and_region() {
     assert_eq!((region.get(), made_of[0].depth), (1, 0));
     assert!(made_of.iter().all(|account| trace.event(account.step.unwrap()).is_some()));
 
-    let of_hypothesis = why(shown, &trace, names, None, Some(hypothesis));
+    let of_hypothesis = why(shown, &trace, names, None, Some(hypothesis), None);
     assert_eq!((of_hypothesis.pixel, of_hypothesis.hypothesis.unwrap().1), (None, story));
     assert_eq!(
-        why(shown, &trace, names, Some(OUTSIDE), Some(HypothesisId::from_index(u16::MAX.into()))),
+        why(shown, &trace, names, Some(OUTSIDE), Some(HypothesisId::from_index(u16::MAX.into())), None),
         Why::default()
     );
+}
+
+#[test]
+fn a_selection_ends_the_question_about_a_hypothesis() {
+    let mut application = application();
+    let chosen = HypothesisId::from_index(0);
+    for edit in [Edit::Select(Some(Item::Region(RegionId::from_index(1)))), Edit::ClearSelection] {
+        debug(&mut application, DebugCommand::Choose(Some(chosen)));
+        assert_eq!(application.state().debugger.chosen, Some(chosen));
+        application.apply(edit);
+        assert_eq!(application.state().debugger.chosen, None);
+    }
 }
 
 proptest! {

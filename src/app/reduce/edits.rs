@@ -47,7 +47,7 @@ pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
         Edit::FitSkewedT(marked) => fit_skewed_t(state, marked),
         Edit::RestrictTo(area) => edit(state, None, |document| document.area = area),
         Edit::Select(item) => {
-            state.explained_pixel = None;
+            forget_questions(state);
             edit(state, None, |document| document.selection.item = item)
         }
         Edit::Mark(mask, combine, gesture) => edit(state, gesture, |document| {
@@ -60,7 +60,7 @@ pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
             edit(state, None, |document| edit_named_marks(&mut document.selection, change))
         }
         Edit::ClearSelection => {
-            state.explained_pixel = None;
+            forget_questions(state);
             edit(state, None, |document| {
                 let mut named = (*document.selection.named).clone();
                 named.active = None;
@@ -94,6 +94,11 @@ fn invert_marked(state: &mut State) -> Vec<Effect> {
         };
         update_active_mark(&mut document.selection, size);
     })
+}
+
+/// Forgets the pixel and the hypothesis whose histories are shown: what is selected now has a history of its own.
+fn forget_questions(state: &mut State) {
+    (state.explained_pixel, state.debugger.chosen) = (None, None);
 }
 
 /// Changes the parameters as a step of the history; parameters that are not valid change nothing.

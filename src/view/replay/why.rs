@@ -39,40 +39,38 @@ impl WhySentence {
     }
 }
 
-/// The answers for a pixel, and for a hypothesis; without a hypothesis, for the region of the pixel.
+/// The answers for a pixel, and for a hypothesis; without a hypothesis, for the region of the pixel, or for `region`, if the second look found
+/// it.
 pub fn why(
     shown: &ResultSnapshot,
     trace: &Arc<Trace>,
     names: &RegionNames,
     pixel: Option<PixelIndex>,
     hypothesis: Option<HypothesisId>,
+    region: Option<RegionId>,
 ) -> Why {
     let names_in_sentences = Names::of(trace);
     let sentence = |step: usize, depth: usize, text: String| WhySentence::of_step(trace, step, depth, text);
     let image = &shown.picture.photo.image;
     let pixel = pixel.filter(|&pixel| pixel.index() < image.pixels.len());
     let pixel = pixel.map(|pixel| (pixel, of_pixel(shown, trace, &names_in_sentences, pixel)));
-    let hypothesis_of_pixel = || {
-        let (pixel, _) = pixel.as_ref()?;
-        names.hypotheses_of(RegionId::from_label(shown.labels()[pixel.index()])?).next()
-    };
+    let region_of_pixel =
+        pixel.as_ref().and_then(|(pixel, _)| RegionId::from_label(shown.labels()[pixel.index()]));
+    let hypothesis_of_pixel = || names.hypotheses_of(region_of_pixel?).next();
     let subject = hypothesis.or_else(hypothesis_of_pixel);
     let hypothesis = subject.and_then(|subject| {
         let sentences = names_in_sentences.story(&story(trace, subject)?);
         Some((subject, sentences.into_iter().map(|(step, text)| sentence(step, 0, text)).collect()))
     });
-    let region = subject.and_then(|subject| names.region_of(subject)).map(|region| {
+    let made = subject.and_then(|subject| names.region_of(subject)).map(|region| {
         let sentences = lineage(trace, region);
         let sentences = sentences
             .iter()
             .map(|ancestor| sentence(ancestor.step(), ancestor.depth, names_in_sentences.ancestor(ancestor)));
         (region, sentences.collect())
     });
-    let of_second_look = || {
-        let (pixel, _) = pixel.as_ref().filter(|_| subject.is_none())?;
-        region_of_second_look(trace, RegionId::from_label(shown.labels()[pixel.index()])?)
-    };
-    let region = region.or_else(of_second_look);
+    let asked = region_of_pixel.or(region).filter(|_| subject.is_none());
+    let region = made.or_else(|| region_of_second_look(trace, asked?));
     Why { pixel, hypothesis, region }
 }
 

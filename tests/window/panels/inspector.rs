@@ -208,3 +208,21 @@ fn marked_pixels_have_a_block_of_their_own() {
     assert!(says(&window, "region 2 100 %"), "the result again");
     click(&mut window, Role::Button, "Copy");
 }
+
+#[test]
+fn a_hovered_item_keeps_no_room_for_what_is_selected_no_more() {
+    let mut window = inspector();
+    let labels = shown(&window).labels().clone();
+    let inside = labels.as_slice().iter().position(|&label| label == 1).unwrap();
+    // The block of a pixel has the distances from all hypotheses.
+    apply(&mut window, Edit::Select(Some(Item::Pixel(PixelIndex::from_index(inside)))));
+    window.run_steps(3);
+    apply(&mut window, ViewCommand::Hover(Some(region(2))));
+    apply(&mut window, Edit::Select(Some(region(1))));
+    window.run_steps(1);
+    let history = |window: &Window| named(window, Role::Label, "Region 1 is made of").rect().top();
+    let while_hovered = history(&window);
+    apply(&mut window, ViewCommand::Hover(None));
+    window.run_steps(3);
+    assert!((while_hovered - history(&window)).abs() < 60.0, "{while_hovered} and {}", history(&window));
+}

@@ -31,7 +31,7 @@ fn a_clicked_region_tells_the_pixels_history_and_each_sentence_leads_to_its_step
     alone(&mut window);
     let debugger = &state(&window).debugger;
     let (trace, shown) = (debugger.trace().unwrap(), state(&window).newest.as_ref().unwrap());
-    let (_, history) = why(shown, trace, &debugger.names, Some(pixel), None).pixel.unwrap();
+    let (_, history) = why(shown, trace, &debugger.names, Some(pixel), None, None).pixel.unwrap();
     let split = history.iter().find(|account| account.stage == Stage::Split).unwrap().clone();
     let masks = history.iter().find(|account| account.stage == Stage::Masks).unwrap().clone();
     for account in [split, masks] {
