@@ -4,7 +4,7 @@ use super::action::Action;
 use super::command_palette::CommandPalette;
 use super::compact_dock::CompactDock;
 use super::dock::{Dock, Panels, TAB_BAR_PT};
-use super::dropped_files::open_dropped_and_pasted;
+use super::dropped_files::{open_dropped, open_pasted};
 use super::files::Dialogs;
 use super::keyboard_focus::KeyboardFocus;
 use super::menu_keys::MenuKeys;
@@ -226,10 +226,7 @@ impl WindowContent {
 
     fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         self.keyboard_focus.skip_splitters(ui.ctx());
-        // A dialog has a field for what is pasted.
-        if !self.dialogs.is_open() && !self.command_palette.is_open() {
-            open_dropped_and_pasted(ui, cx);
-        }
+        self.take_dropped_and_pasted(ui, cx);
         let mut held_keys = self.handle_keys(ui, cx);
         if let Some(pane) = self.single_pane {
             let frame = egui::Frame::new().fill(cx.palette.panel);
@@ -316,6 +313,18 @@ impl WindowContent {
             cx.send(command);
         }
         shortcuts::show_help(ui, cx, &mut self.help);
+    }
+
+    /// Opens what is dropped and pasted. A file that is dropped while a dialog asks for a label map, a workspace or the like is the dialog's;
+    /// any other is opened, and ends the dialog. A dialog has a field for what is pasted.
+    fn take_dropped_and_pasted(&mut self, ui: &Ui, cx: &mut PanelContext) {
+        if !self.dialogs.take_dropped(ui.ctx()) && open_dropped(ui, cx) {
+            self.dialogs.close(ui.ctx());
+            self.command_palette.close(ui.ctx());
+        }
+        if !self.dialogs.is_open() && !self.command_palette.is_open() {
+            open_pasted(ui, cx);
+        }
     }
 
     /// Shows the panels as they are arranged, or where there is no room for that, as tabs of one group.

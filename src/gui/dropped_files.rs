@@ -7,23 +7,29 @@ use crate::view::Origin;
 use egui::{DroppedFile, Event, Ui};
 use std::sync::Arc;
 
-/// Opens files that were dropped on the window, and pasted paths and pictures. Files that come together are opened together.
-pub fn open_dropped_and_pasted(ui: &Ui, cx: &mut PanelContext) {
-    let is_text_edited = ui.ctx().text_edit_focused();
-    let (dropped, pasted) = ui.input(|input| {
-        let is_paste = |event: &&Event| matches!(event, Event::Paste(_) | Event::PasteImage(_));
-        let pasted: Vec<Event> =
-            if is_text_edited { Vec::new() } else { input.events.iter().filter(is_paste).cloned().collect() };
-        (input.raw.dropped_files.clone(), pasted)
-    });
+/// Opens files that were dropped on the window together; returns whether there were any.
+pub fn open_dropped(ui: &Ui, cx: &mut PanelContext) -> bool {
+    let dropped = ui.input(|input| input.raw.dropped_files.clone());
     let mut origins = Vec::new();
-    for file in dropped {
-        match origin_of(&*file) {
+    for file in &dropped {
+        match origin_of(&**file) {
             Ok(origin) => origins.push(origin),
             Err(reason) => cx.send(ViewCommand::Notify(Severity::Error, reason)),
         }
     }
     open(cx, origins);
+    !dropped.is_empty()
+}
+
+/// Opens pasted paths and pictures, unless a text is being edited.
+pub fn open_pasted(ui: &Ui, cx: &mut PanelContext) {
+    if ui.ctx().text_edit_focused() {
+        return;
+    }
+    let pasted: Vec<Event> = ui.input(|input| {
+        let is_paste = |event: &&Event| matches!(event, Event::Paste(_) | Event::PasteImage(_));
+        input.events.iter().filter(is_paste).cloned().collect()
+    });
     for event in pasted {
         match event {
             Event::Paste(text) => open(cx, typed_paths(&text).into_iter().map(Origin::File).collect()),

@@ -45,6 +45,8 @@ pub struct Dialogs {
     is_new: bool,
     /// The widget that had the focus before the dialog opened, and has it again afterwards.
     focus_before: Option<egui::Id>,
+    /// Whether the path is confirmed without a key or a button, because the file was dropped.
+    is_confirmed: bool,
     /// What is wrong with the path, until the path is changed.
     problem: String,
     /// While a file that was confirmed is being read: the id of the newest notice before. The dialog stays open until the file
@@ -97,8 +99,22 @@ impl Dialogs {
         self.dialog.is_some()
     }
 
+    /// Takes a file that was dropped on the window, where the open dialog asks for a file other than a photograph: as if its path had been
+    /// typed and confirmed. Returns whether there was such a file.
+    pub fn take_dropped(&mut self, ctx: &egui::Context) -> bool {
+        if self.dialog.is_none_or(|dialog| dialog == Dialog::Open || !reads(dialog)) {
+            return false;
+        }
+        let first = |input: &egui::InputState| Some(input.raw.dropped_files.first()?.path().to_path_buf());
+        let Some(path) = ctx.input(first) else { return false };
+        self.path = path.display().to_string();
+        self.problem.clear();
+        self.is_confirmed = true;
+        true
+    }
+
     /// Closes the dialog, and gives the focus back.
-    fn close(&mut self, ctx: &egui::Context) {
+    pub fn close(&mut self, ctx: &egui::Context) {
         (self.dialog, self.reading_since) = (None, None);
         self.problem.clear();
         if let Some(id) = self.focus_before.take() {
@@ -175,7 +191,7 @@ impl Dialogs {
             Dialog::SaveParameters | Dialog::SaveWorkspace => "Save",
             Dialog::Export => "Export",
         };
-        let mut confirmed = false;
+        let mut confirmed = std::mem::take(&mut self.is_confirmed);
         ui.horizontal(|ui| {
             let label = ui.label("Path");
             let field = egui::TextEdit::singleline(&mut self.path).desired_width(300.0);

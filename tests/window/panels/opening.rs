@@ -140,6 +140,46 @@ fn a_dropped_file_opens_by_its_path_or_its_bytes() {
 }
 
 #[test]
+fn a_file_dropped_while_a_dialog_is_open_is_the_dialogs_or_ends_it() {
+    let folder = tempfile::tempdir().unwrap();
+    let labels = folder.path().join("mine.png");
+    let mut window = tiny_window();
+    let own = shown(&window).labels().map(|&label| label as u8 * 9);
+    let map = image::GrayImage::from_raw(own.width() as u32, own.height() as u32, own.as_slice().to_vec());
+    map.unwrap().save(&labels).unwrap();
+    choose(&mut window, "File", "Open label map of another program");
+    drop_file(&mut window, &labels, &[]);
+    window.run_steps(3);
+    assert_eq!(state(&window).view.image.layer, Layer::OtherRegions, "it is not taken for a photograph");
+    assert!(window.query_by_role(Role::TextInput).is_none(), "the dialog is closed");
+    for (modifiers, key) in [(Modifiers::COMMAND, Key::O), (Modifiers::COMMAND, Key::P)] {
+        press(&mut window, modifiers, key);
+        assert!(window.query_by_role(Role::TextInput).is_some());
+        let bytes = std::fs::read(tiny()).unwrap();
+        let name = format!("{key:?}.png");
+        drop_file(&mut window, Path::new(&name), &bytes);
+        window.run_steps(3);
+        assert_eq!(state(&window).picture.as_ref().unwrap().origin.name(), name);
+        assert!(window.query_by_role(Role::TextInput).is_none(), "the dialog is closed");
+    }
+}
+
+#[test]
+fn an_error_that_is_shown_already_is_said_by_the_dialog_too() {
+    let folder = tempfile::tempdir().unwrap();
+    let letter = folder.path().join("letter.png");
+    std::fs::write(&letter, "dear all").unwrap();
+    let mut window = tiny_window();
+    drop_file(&mut window, &letter, &[]);
+    assert!(notice(&window).contains("letter.png"));
+    press(&mut window, Modifiers::COMMAND, Key::O);
+    answer(&mut window, &letter);
+    window.run_steps(3);
+    assert!(window.query_by_role(Role::TextInput).is_some(), "the dialog stays");
+    assert!(says(&window, "letter.png: ") && state(&window).notices.is_empty(), "told once");
+}
+
+#[test]
 fn a_pasted_path_and_a_pasted_picture_open() {
     let mut window = window();
     window.event(Event::Paste(format!("file://{}\n", tiny().display())));
