@@ -3,6 +3,7 @@
 use super::{Document, State, Workspace};
 use crate::raster::RegionId;
 use crate::view::{Elsewhere, ImageSettings, Layer, Picture, ResultSnapshot};
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Options of an export. Each kind of export reads the options that it needs.
@@ -45,6 +46,8 @@ pub(super) struct ExportInput {
     /// Ends of the profile's line, pixels.
     pub(super) profile: Option<[[f32; 2]; 2]>,
     pub(super) workspace: Result<Workspace, String>,
+    /// The files of the photographs that are open, and of the pictures of other programs.
+    pub(super) open_files: Vec<PathBuf>,
 }
 
 impl ExportInput {
@@ -61,6 +64,17 @@ impl ExportInput {
             selected_region: state.selected_region(),
             profile: state.profile_ends(),
             workspace: state.workspace(),
+            open_files: open_files(state),
         }
     }
+}
+
+/// The files of the photographs that are open, and of the pictures of other programs.
+fn open_files(state: &State) -> Vec<PathBuf> {
+    let pictures = state.picture.iter().chain(state.others.iter().map(|other| &other.picture));
+    let photographs = pictures.filter_map(|picture| picture.origin.path());
+    let elsewhere =
+        state.elsewhere.iter().chain(state.others.iter().filter_map(|other| other.elsewhere.as_ref()));
+    let foreign = elsewhere.flat_map(|all| all.paths.files().map(|(_, path)| path));
+    photographs.chain(foreign).map(Path::to_path_buf).collect()
 }

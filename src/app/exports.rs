@@ -218,6 +218,7 @@ pub(super) fn write_export(
     report_progress: Progress,
 ) -> Result<String, String> {
     let Export { kind, path, options } = export;
+    expect_no_open_file(path, &input.open_files)?;
     let Contents { path, bytes, what } = match kind.row().writer {
         Writer::Folder(write) => return write(path, options, input, stop, report_progress),
         Writer::File(contents) => contents(path, options, input)?,
@@ -225,10 +226,25 @@ pub(super) fn write_export(
     if stop.stopped() {
         return Ok(write::stopped(&path));
     }
+    // The writer may have changed the extension.
+    expect_no_open_file(&path, &input.open_files)?;
     match write_file(&path, &bytes) {
         Ok(()) => Ok(format!("wrote {what} to {}", path.display())),
         Err(error) => Err(format!("{}; choose another place", write::error_chain(&error))),
     }
+}
+
+/// Fails where writing to `path` would replace an open file, or the folder of one: a photograph cannot be got back.
+fn expect_no_open_file(path: &Path, open_files: &[PathBuf]) -> Result<(), String> {
+    let Ok(target) = path.canonicalize() else { return Ok(()) };
+    let is_replaced = |file: &&PathBuf| file.canonicalize().is_ok_and(|file| file.starts_with(&target));
+    open_files.iter().find(is_replaced).map_or(Ok(()), |file| {
+        Err(format!(
+            "{} is open, and is not replaced: choose another place than {}",
+            file.display(),
+            path.display()
+        ))
+    })
 }
 
 #[cfg(test)]

@@ -187,3 +187,28 @@ fn every_kind_that_is_offered_has_a_title_and_a_file_name_of_its_own() {
     let state = State::default();
     assert!(!ExportKind::Selection.is_available(&state) && !ExportKind::Area.is_available(&state));
 }
+
+#[test]
+fn an_open_file_is_not_replaced_by_an_export() {
+    let folder = tempfile::tempdir().unwrap();
+    let photo = folder.path().join("photo.png");
+    fs::copy(concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png"), &photo).unwrap();
+    let before = fs::read(&photo).unwrap();
+    let mut application = Application::new(Executor::Inline, || ()).unwrap();
+    application.apply(JobCommand::Open(Origin::File(photo.clone())));
+    application.apply(JobCommand::Open(Origin::Sample(sample::NAME.to_owned())));
+    let input = ExportInput::of(application.state());
+    let around = folder.path().join(".").join("photo.jpg").with_file_name("photo.png");
+    let whole = ExportOptions { force: true, ..ExportOptions::default() };
+    for export in [
+        ExportKind::Matte.to(photo.clone()),
+        ExportKind::Layer.to(around),
+        Export { options: whole, ..ExportKind::Result.to(folder.path()) },
+    ] {
+        let reason = write_one(&export, &input).unwrap_err();
+        assert!(reason.contains("photo.png is open, and is not replaced"), "{reason}");
+        assert_eq!(fs::read(&photo).unwrap(), before, "the photograph that stays open beside the shown one");
+    }
+    let beside = ExportKind::Layer.to(folder.path().join("layer.png"));
+    assert!(write_one(&beside, &input).is_ok());
+}
