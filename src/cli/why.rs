@@ -161,7 +161,11 @@ fn origin(traced: &Traced, names: &Names, pixel: usize) -> String {
     }
     let mut text = format!("\nregion {region} is made of\n");
     for ancestor in &ancestors {
-        let _ = writeln!(text, "  {:1$}{2}", "", 2 * ancestor.depth, names.ancestor(ancestor));
+        let said = match of_second_look {
+            Some(_) => names.second_look_ancestor(ancestor),
+            None => names.ancestor(ancestor),
+        };
+        let _ = writeln!(text, "  {:1$}{said}", "", 2 * ancestor.depth);
     }
     text
 }

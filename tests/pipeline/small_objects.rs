@@ -213,6 +213,10 @@ fn the_window_tells_what_the_second_look_decided_about_a_pixel() {
     assert!(history.last().is_some_and(|sentence| !sentence.text.contains("second look")));
     let (of, made_of) = answers.region.unwrap();
     assert!(of == region && !made_of.is_empty());
+    assert!(
+        made_of.iter().all(|sentence| sentence.text.starts_with("second look: hypothesis ")),
+        "{made_of:?}"
+    );
     let of_region = why(shown, trace, &state.debugger.names, None, None, Some(region));
     assert!(
         of_region.region == Some((region, made_of)),

@@ -2,7 +2,7 @@
 
 use super::Names;
 use crate::segment::{PixelPlace, PlaceRule};
-use crate::trace::HistoryEntry;
+use crate::trace::{Ancestor, HistoryEntry};
 
 impl Names {
     /// How a pixel of the photograph took its region, where regions were found in a working picture with larger pixels.
@@ -40,5 +40,11 @@ impl Names {
     /// A decision of the second look about a pixel. These are the names in the record of the second look.
     pub fn second_look_entry(&self, entry: &HistoryEntry) -> String {
         format!("second look: {}", self.history_entry(entry))
+    }
+
+    /// What a region of the second look is made of. These are the names in the record of the second look, whose hypotheses are numbered
+    /// apart from those of the working picture.
+    pub fn second_look_ancestor(&self, ancestor: &Ancestor) -> String {
+        format!("second look: {}", self.ancestor(ancestor))
     }
 }

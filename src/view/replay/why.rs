@@ -110,7 +110,7 @@ fn region_of_second_look(trace: &Trace, region: RegionId) -> Option<(RegionId, V
     let names = Names::of_second_look(record);
     let sentences = lineage(&record.trace, finer).into_iter().map(|ancestor| {
         let stage = record.trace.stage_at(ancestor.step()).unwrap_or(Stage::Clipping);
-        WhySentence { step: None, stage, depth: ancestor.depth, text: names.ancestor(&ancestor) }
+        WhySentence { step: None, stage, depth: ancestor.depth, text: names.second_look_ancestor(&ancestor) }
     });
     Some((region, sentences.collect()))
 }
