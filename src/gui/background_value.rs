@@ -56,6 +56,11 @@ impl<S: PartialEq + Clone, V: PartialEq + Clone, T: Send + 'static> BackgroundVa
         }
         self.value.as_ref().filter(|((of, _), _)| *of == subject).map(|(_, value)| value)
     }
+
+    /// The value of `key`, if it is the last one that was computed.
+    pub fn known(&self, key: &(S, V)) -> Option<&T> {
+        self.value.as_ref().filter(|(of, _)| of == key).map(|(_, value)| value)
+    }
 }
 
 #[cfg(test)]
@@ -79,6 +84,10 @@ mod tests {
             std::thread::yield_now();
         }
         assert_eq!(background_value.get(&ctx, ((), 2), true, || "again"), Some(&"two"));
+        assert_eq!(
+            (background_value.known(&((), 2)), background_value.known(&((), 3))),
+            (Some(&"two"), None)
+        );
     }
 
     #[test]

@@ -28,11 +28,16 @@ type WhySubject = (usize, Option<PixelIndex>, Option<HypothesisId>, Option<Regio
 /// where that is followed.
 type MarkedVersion = (u64, usize, Option<CursorPlace>);
 
+/// Opacity of answers from the record of the result before.
+const FAINT: f32 = 0.5;
+
 /// The inspector, with the answers and findings that were computed last.
 #[derive(Default)]
 pub struct InspectorPanel {
     /// The version is the generation of the trace.
     show_answers: BackgroundValue<WhySubject, u64, Why>,
+    /// The subject whose answers were asked for last.
+    asked: Option<WhySubject>,
     /// The subject is the address of the photograph.
     marked: BackgroundValue<usize, MarkedVersion, Option<Inspection>>,
     owners: CursorOwners,
@@ -143,6 +148,10 @@ impl InspectorPanel {
             return answers::not_recorded(ui, cx);
         };
         let pixel = cx.state.explained_pixel();
+        let picture = Arc::as_ptr(&shown.picture) as usize;
+        if debugger.generation != shown.generation {
+            return self.show_former_history(ui, cx, (picture, pixel));
+        }
         let selected = cx.state.selected_region().filter(|_| pixel.is_none());
         let of_region = selected.and_then(|region| debugger.names.hypotheses_of(region).next());
         let hypothesis = debugger.chosen.filter(|_| pixel.is_none()).or(of_region);
@@ -151,10 +160,27 @@ impl InspectorPanel {
         }
         let (names, generation) = (Arc::clone(&debugger.names), debugger.generation);
         let synchronous = shown.labels().len() <= SYNCHRONOUS_PX;
-        let key = ((Arc::as_ptr(&shown.picture) as usize, pixel, hypothesis, selected), generation);
+        let subject = (picture, pixel, hypothesis, selected);
+        self.asked = Some(subject);
+        let key = (subject, generation);
         let compute = move || why(&shown, &trace, &names, pixel, hypothesis, selected);
         if let Some(found) = self.show_answers.get(ui.ctx(), key, synchronous, compute) {
             answers::show(ui, cx, found);
+        }
+    }
+
+    /// Shows, while the decisions about a new result are being recorded, the answers from the record before, faint: numbers of regions differ
+    /// between two results. `of`: the address of the photograph, and the pixel, that the answers must be about.
+    fn show_former_history(&self, ui: &mut Ui, cx: &mut PanelContext, of: (usize, Option<PixelIndex>)) {
+        let asked = self.asked.filter(|&(picture, pixel, ..)| (picture, pixel) == of);
+        let former =
+            asked.and_then(|subject| self.show_answers.known(&(subject, cx.state.debugger.generation)));
+        match former {
+            Some(found) => {
+                ui.multiply_opacity(FAINT);
+                answers::show(ui, cx, found);
+            }
+            None => answers::not_recorded(ui, cx),
         }
     }
 }

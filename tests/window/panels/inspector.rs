@@ -1,6 +1,8 @@
 //! Tests of the inspector: verdict, values against thresholds and actions of what is selected, marked, hovered or stepped to.
 
-use crate::window::{Window, apply, click, marked, named, region, says, shown, state, tiny_window};
+use crate::window::{
+    SIZE, Window, apply, click, marked, named, region, says, shown, state, tiny_window, with_state,
+};
 use dichroscope::app::{Combine, Command, DebugCommand, Edit, ViewCommand};
 use dichroscope::gui::Pane;
 use dichroscope::intrinsic::Reason;
@@ -225,4 +227,19 @@ fn a_hovered_item_keeps_no_room_for_what_is_selected_no_more() {
     apply(&mut window, ViewCommand::Hover(None));
     window.run_steps(3);
     assert!((while_hovered - history(&window)).abs() < 60.0, "{while_hovered} and {}", history(&window));
+}
+
+#[test]
+fn the_history_of_a_region_is_not_told_from_the_record_of_another_result() {
+    let mut earlier = state(&tiny_window()).clone();
+    earlier.document.selection.item = Some(region(1));
+    let mut recorded = earlier.clone();
+    // The record is of a result in which the region may have had another number.
+    earlier.debugger.generation += 1;
+    for (state, tells) in [(&mut recorded, true), (&mut earlier, false)] {
+        let Some(mut window) = with_state(SIZE, std::mem::take(state)) else { return };
+        window.run_steps(3);
+        assert_eq!(says(&window, "Region 1 is made of"), tells);
+        assert_eq!(says(&window, "The decisions are being recorded"), !tells);
+    }
 }
