@@ -10,6 +10,8 @@ pub(super) struct Awaited {
     pub(super) preselects: bool,
     /// Whether its region is to be selected, although pixels are marked: a skewed T was fitted to them.
     pub(super) selects_region: bool,
+    /// Whether the selected region has the number that it has in that result already, as undo and workspaces restore both together.
+    pub(super) is_numbered: bool,
     /// The rest of a restored workspace, which is applied when its pinned result has been computed.
     pub(super) after_pin: Option<AfterPin>,
 }

@@ -33,4 +33,6 @@ mod elsewhere_tests;
 #[cfg(test)]
 mod files_tests;
 #[cfg(test)]
+mod selection_tests;
+#[cfg(test)]
 mod tests;

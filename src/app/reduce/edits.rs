@@ -47,7 +47,7 @@ pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
         Edit::FitSkewedT(marked) => fit_skewed_t(state, marked),
         Edit::RestrictTo(area) => edit(state, None, |document| document.area = area),
         Edit::Select(item) => {
-            forget_questions(state);
+            begin_selection(state);
             edit(state, None, |document| document.selection.item = item)
         }
         Edit::Mark(mask, combine, gesture) => edit(state, gesture, |document| {
@@ -60,7 +60,7 @@ pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
             edit(state, None, |document| edit_named_marks(&mut document.selection, change))
         }
         Edit::ClearSelection => {
-            forget_questions(state);
+            begin_selection(state);
             edit(state, None, |document| {
                 let mut named = (*document.selection.named).clone();
                 named.active = None;
@@ -96,9 +96,11 @@ fn invert_marked(state: &mut State) -> Vec<Effect> {
     })
 }
 
-/// Forgets the pixel and the hypothesis whose histories are shown: what is selected now has a history of its own.
-fn forget_questions(state: &mut State) {
+/// Forgets the pixel and the hypothesis whose histories are shown: what is selected now has a history of its own, and its number is that of
+/// the result that is shown.
+fn begin_selection(state: &mut State) {
     (state.explained_pixel, state.debugger.chosen) = (None, None);
+    state.awaited.is_numbered = false;
 }
 
 /// Changes the parameters as a step of the history; parameters that are not valid change nothing.
@@ -132,7 +134,9 @@ fn edit(state: &mut State, gesture: Option<Gesture>, change: impl FnOnce(&mut Do
 fn restore_document(state: &mut State, document: Option<Document>) -> Vec<Effect> {
     let Some(document) = document else { return Vec::new() };
     let before = std::mem::replace(&mut state.document, document);
-    analyze_if_needed(state, &before)
+    let effects = analyze_if_needed(state, &before);
+    state.awaited.is_numbered = !effects.is_empty();
+    effects
 }
 
 /// Analyzes if parameters or area differ from those of `before`.

@@ -320,7 +320,10 @@ fn show_result(state: &mut State, shown: Arc<ResultSnapshot>) -> Vec<Effect> {
             state.found_light = shown.analysis.illuminant.map(|light| light.direction);
         }
     }
-    follow_region(state, &shown);
+    if !state.awaited.is_numbered {
+        follow_region(state, &shown);
+    }
+    state.awaited.is_numbered &= !is_last;
     if is_last && std::mem::take(&mut state.awaited.preselects) {
         select_largest_region(state, &shown);
     }
@@ -333,6 +336,7 @@ fn show_result(state: &mut State, shown: Arc<ResultSnapshot>) -> Vec<Effect> {
     state.pinned = state.newest.clone();
     state.view.show_pinned = after.show_pinned;
     (state.document.params, state.document.selection.item) = (after.params, after.item);
+    state.awaited.is_numbered = true;
     analyze(state)
 }
 
