@@ -107,6 +107,21 @@ mod tests {
         assert_eq!(Part::of_aperture(undefined, (64, 64)), None, "no width");
     }
 
+    /// Place in the stored picture of 5 × 3 pixels that the upright pixel shows, by the definition of EXIF.
+    fn source_of((x, y): (usize, usize), orientation: Orientation) -> usize {
+        let (column, row) = match orientation {
+            Orientation::Normal => (x, y),
+            Orientation::FlipH => (4 - x, y),
+            Orientation::Rotate180 => (4 - x, 2 - y),
+            Orientation::FlipV => (x, 2 - y),
+            Orientation::Transpose => (y, x),
+            Orientation::Rotate90 => (y, 2 - x),
+            Orientation::Transverse => (4 - y, 2 - x),
+            Orientation::Rotate270 => (4 - y, x),
+        };
+        row * 5 + column
+    }
+
     /// The part of a turned picture is the turned part: each pixel that the part holds is the same.
     #[test]
     fn the_part_turns_with_the_picture() {
@@ -122,21 +137,6 @@ mod tests {
             let mut of_turned = part.upright((width, height), orientation).of(&turned, columns, 1);
             of_turned.sort_unstable();
             assert_eq!(of_turned, kept, "{orientation:?}");
-        }
-
-        /// Place in the stored picture of 5 × 3 pixels that the upright pixel shows, by the definition of EXIF.
-        fn source_of((x, y): (usize, usize), orientation: Orientation) -> usize {
-            let (column, row) = match orientation {
-                Orientation::Normal => (x, y),
-                Orientation::FlipH => (4 - x, y),
-                Orientation::Rotate180 => (4 - x, 2 - y),
-                Orientation::FlipV => (x, 2 - y),
-                Orientation::Transpose => (y, x),
-                Orientation::Rotate90 => (y, 2 - x),
-                Orientation::Transverse => (4 - y, 2 - x),
-                Orientation::Rotate270 => (4 - y, x),
-            };
-            row * 5 + column
         }
     }
 }
