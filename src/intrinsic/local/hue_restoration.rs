@@ -100,9 +100,6 @@ impl Hues {
     }
 }
 
-/// Least number of blobs that a thread takes at once.
-const LEAST_BLOBS: usize = 16;
-
 fn restored_bands(input: &AnalysisInput, thresholds: &[f32; 3], lamps: &Lamps) -> Vec<RestoredBand> {
     let blobs = blobs_to_restore(input, thresholds);
     let restored = |surroundings: &mut Surroundings, blob: &Vec<usize>| {
@@ -112,8 +109,7 @@ fn restored_bands(input: &AnalysisInput, thresholds: &[f32; 3], lamps: &Lamps) -
             restored_in_blob(input, thresholds, lamps, surroundings, blob)
         }
     };
-    let blobs = blobs.par_iter().with_min_len(LEAST_BLOBS);
-    blobs.map_init(|| Surroundings::new(input.masks), restored).flatten_iter().collect()
+    blobs.par_iter().map_init(|| Surroundings::new(input.masks), restored).flatten_iter().collect()
 }
 
 /// The blobs of clipped pixels of at most [`MOST_PIXELS`] of which one has a single clipped band.
