@@ -23,7 +23,7 @@
 //!
 //! [`choose_light`] is the whole rule. The function reads its arguments only; `planar` carries the decision out.
 
-use super::illuminant::{LEAST_BAND, MOST_LAMP_OFFSETS_DEG, unusualness, white_offsets_deg};
+use super::illuminant::{MOST_LAMP_OFFSETS_DEG, unusualness, white_offsets_deg};
 use super::plane_light::PlaneLight;
 use super::vote_light::VoteLight;
 use crate::color::{Vec3, axis_angle_deg};
@@ -40,6 +40,9 @@ pub const LIGHT_LIMITS: LightLimits = LightLimits {
     planes_offsets_deg: [40.0, 20.0],
     planes_interval_deg: 30.0,
 };
+/// Least value of a band in the unit direction of the planes' light: where a band lacks, nothing tells surface reflection from a saturated
+/// body.
+const LEAST_BAND_OF_PLANES: f64 = 0.05;
 /// Largest difference of the unusualness of both lights that counts.
 const MOST_UNUSUAL: f64 = 4.0;
 /// Exponent of the ratio of both intervals, and of that of both shares.
@@ -156,7 +159,7 @@ fn planes_could_be(planes: &PlaneLight) -> bool {
         let offsets_deg = white_offsets_deg(&direction);
         let is_near_white =
             (0..2).all(|axis| offsets_deg[axis].abs() <= LIGHT_LIMITS.planes_offsets_deg[axis]);
-        is_near_white && direction.min() >= LEAST_BAND
+        is_near_white && direction.min() >= LEAST_BAND_OF_PLANES
     };
     planes.known_direction().is_some_and(usual) && planes.interval_deg <= LIGHT_LIMITS.planes_interval_deg
 }

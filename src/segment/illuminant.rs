@@ -112,8 +112,8 @@ fn interval_deg(constraints: &[Constraint], prior: &Prior, direction: &Vec3) -> 
 
 /// Number of the strongest constraints whose pairwise intersections are starts of the search.
 const MAX_PAIRED: usize = 8;
-/// Least value of a band in the unit direction of a light: where a band lacks, nothing tells surface reflection from a saturated body.
-pub const LEAST_BAND: f64 = 0.05;
+/// Least value of a band in the unit direction of a light.
+pub const LEAST_BAND: f64 = 0.02;
 /// Largest distance from white of a lamp that rests on highlights alone: blue to yellow, green to magenta, degrees.
 pub const MOST_LAMP_OFFSETS_DEG: [f64; 2] = [20.0, 8.0];
 /// Standard deviations of the colors of lights about white: yellow to blue, green to magenta, degrees.
