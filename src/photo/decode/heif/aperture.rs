@@ -17,10 +17,10 @@ impl Part {
     /// sense or leaves the picture.
     pub fn of_aperture(aperture: CleanAperture, (width, height): (usize, usize)) -> Option<Self> {
         let shown = [aperture.width_pixels()?, aperture.height_pixels()?].map(|length| length as usize);
-        let offsets =
-            [(aperture.horiz_off_n, aperture.horiz_off_d), (aperture.vert_off_n, aperture.vert_off_d)];
-        let [left, top] = [(width, shown[0], offsets[0]), (height, shown[1], offsets[1])].map(first_shown);
-        let part = Self { left: left?, top: top?, width: shown[0], height: shown[1] };
+        let offset = |over: i32, under: u32| f64::from(over) / f64::from(under);
+        let left = first_shown(width, shown[0], offset(aperture.horiz_off_n, aperture.horiz_off_d))?;
+        let top = first_shown(height, shown[1], offset(aperture.vert_off_n, aperture.vert_off_d))?;
+        let part = Self { left, top, width: shown[0], height: shown[1] };
         let is_inside = part.left + part.width <= width && part.top + part.height <= height;
         (is_inside && part.width > 0 && part.height > 0).then_some(part)
     }
@@ -52,18 +52,13 @@ impl Part {
 }
 
 /// Whether the upright picture is as wide as the stored one is high.
-pub(super) const fn is_quarter_turn(orientation: Orientation) -> bool {
-    match orientation {
-        Orientation::Normal | Orientation::FlipH | Orientation::Rotate180 | Orientation::FlipV => false,
-        Orientation::Transpose | Orientation::Rotate90 | Orientation::Transverse | Orientation::Rotate270 => {
-            true
-        }
-    }
+pub(super) fn is_quarter_turn(orientation: Orientation) -> bool {
+    orientation.irot_steps() % 2 == 1
 }
 
-/// The first of `shown` pixels of `length`, whose center is `offset` (numerator, denominator) away from that of all.
-fn first_shown((length, shown, (over, under)): (usize, usize, (i32, u32))) -> Option<usize> {
-    let center = (length as f64 - 1.0) / 2.0 + f64::from(over) / f64::from(under);
+/// The first of `shown` pixels of `length`, whose center is `offset` pixels away from that of all; none outside of them.
+fn first_shown(length: usize, shown: usize, offset: f64) -> Option<usize> {
+    let center = (length as f64 - 1.0) / 2.0 + offset;
     let first = (center - (shown as f64 - 1.0) / 2.0).round();
     (0.0..length as f64).contains(&first).then_some(first as usize)
 }

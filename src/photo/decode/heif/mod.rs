@@ -28,12 +28,11 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
     let density = density(&picture, &exif);
     let cicp = picture.color.cicp.map(code_points_of_rgb).filter(|_| picture.color.icc.is_none());
     let whole = Part { left: 0, top: 0, width: picture.width as usize, height: picture.height as usize };
-    let (part, warning) = match shown_part(&picture, (info.coded_width as usize, info.coded_height as usize))
-    {
-        Some(Ok(part)) => (part, None),
-        Some(Err(warning)) => (whole, Some(warning)),
-        None => (whole, None),
-    };
+    let stored = (info.coded_width as usize, info.coded_height as usize);
+    let part = picture.clean_aperture.map(|aperture| Part::of_aperture(aperture, stored));
+    let warning = (part == Some(None))
+        .then(|| "the file asks to show a part outside of its picture: the whole picture is read".to_owned());
+    let part = part.flatten().map_or(whole, |part| part.upright(stored, picture.orientation));
     let (layout, samples) = samples(picture.pixels, picture.alpha)?;
     let samples = cut(samples, part, whole, layout.channels());
     Ok(Decoded {
@@ -47,15 +46,6 @@ pub(super) fn decode(bytes: &[u8], budget: Budget) -> Result<Decoded, Fault> {
         warnings: warning.into_iter().collect(),
         ..Decoded::plain((part.width, part.height), layout, samples)
     })
-}
-
-/// The part of the upright picture that the file asks to show, or a warning where it lies outside of the picture; `None`: the
-/// file asks for no part. `size`: of the stored picture.
-fn shown_part(picture: &DecodedImage, size: (usize, usize)) -> Option<Result<Part, String>> {
-    let aperture = picture.clean_aperture?;
-    let part = Part::of_aperture(aperture, size);
-    let part = part.ok_or("the file asks to show a part outside of its picture: the whole picture is read");
-    Some(part.map(|part| part.upright(size, picture.orientation)).map_err(Into::into))
 }
 
 /// The samples of `part` of a picture of the size `whole`.
@@ -109,11 +99,12 @@ fn code_points_of_rgb(cicp: Cicp) -> [u8; 4] {
 
 /// The density of the upright picture: of EXIF, or the aspect of a pixel that the file states.
 fn density(picture: &DecodedImage, exif: &Exif) -> Option<Density> {
-    if let Some(aspect) = picture.pixel_aspect_ratio.filter(|aspect| !aspect.is_square()) {
-        return Density::new([(aspect.v_spacing, 1), (aspect.h_spacing, 1)], DensityUnit::Ratio);
-    }
-    let is_turned = is_quarter_turn(picture.orientation);
-    exif.density.map(|density| if is_turned { density.turned() } else { density })
+    let aspect = picture.pixel_aspect_ratio.filter(|aspect| !aspect.is_square());
+    let density = match aspect {
+        Some(aspect) => Density::new([(aspect.v_spacing, 1), (aspect.h_spacing, 1)], DensityUnit::Ratio),
+        None => exif.density,
+    }?;
+    Some(if is_quarter_turn(picture.orientation) { density.turned() } else { density })
 }
 
 fn compression(info: &ImageInfo) -> Compression {
