@@ -309,8 +309,8 @@ impl WindowContent {
         if let Some(view_export) = self.dialogs.show(ui, cx) {
             self.view_exporter.begin(ui.ctx(), view_export, cx, &self.panels.cube);
         }
-        if let Some(command) = self.view_exporter.take_command() {
-            cx.send(command);
+        if let Some(drawn) = self.view_exporter.take_drawn() {
+            self.dialogs.take_drawn(drawn, cx);
         }
         shortcuts::show_help(ui, cx, &mut self.help);
     }

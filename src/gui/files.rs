@@ -2,35 +2,17 @@
 
 use super::PanelContext;
 use super::action::{LayerFile, PixelSet};
+use super::dialog::Dialog;
 use super::export_form::ExportForm;
 use super::proposed_path::{proposed_layer_path, proposed_path, proposed_pixels_path};
 use super::system_dialog::{Answer, SystemDialog, Wanted};
 use super::typed_path::{typed_path, unique_names};
 use super::view_export::ViewExport;
-use crate::app::{Export, ExportKind, JobCommand, Notice, Severity, ViewCommand, is_workspace};
+use crate::app::{Export, ExportKind, JobCommand, Notice, Severity, State, ViewCommand, is_workspace};
 use crate::truth::sample::{SAMPLES, THREE_LAMPS};
 use crate::view::{ElsewhereKind, Layer, Origin};
 use egui::{Key, Modifiers, RichText, Ui};
 use std::path::{Path, PathBuf};
-
-/// The dialogs of the window, by what a person chooses in the dialog.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Dialog {
-    /// A photograph to open.
-    Open,
-    /// A parameter file to read.
-    LoadParameters,
-    /// The path to write the parameters to.
-    SaveParameters,
-    /// A workspace to read.
-    OpenWorkspace,
-    /// A picture that another program made of the open photograph.
-    OpenElsewhere(ElsewhereKind),
-    /// The path to write the workspace to.
-    SaveWorkspace,
-    /// The kind of an export, and the path to write.
-    Export,
-}
 
 /// The open dialog, and the system's file dialog that may be open beside it.
 #[derive(Default)]
@@ -49,16 +31,39 @@ pub struct Dialogs {
     is_confirmed: bool,
     /// What is wrong with the path, until the path is changed.
     problem: String,
-    /// While a file that was confirmed is being read: the id of the newest notice before. The dialog stays open until the file
-    /// has been read, so that an error leaves dialog and text as they are.
-    reading_since: Option<u64>,
+    /// The work that was confirmed and is under way. The dialog stays open until the work has ended, so that an error leaves
+    /// dialog and text as they are.
+    waiting: Option<Waiting>,
+}
+
+/// The work that an open dialog waits for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Waiting {
+    /// A file is being read; the number is the id of the newest notice before.
+    Reading(u64),
+    /// A view is being drawn, which is written next.
+    Drawing,
+    /// A file or a folder is being written.
+    Writing,
+}
+
+impl Waiting {
+    /// What the dialog says meanwhile.
+    const fn text(self) -> &'static str {
+        match self {
+            Self::Reading(_) => "Reading\u{2026}",
+            Self::Drawing | Self::Writing => {
+                "Writing\u{2026} Escape closes this window, and the file is written."
+            }
+        }
+    }
 }
 
 impl Dialogs {
     /// Opens a dialog.
     pub fn open(&mut self, dialog: Dialog) {
         (self.dialog, self.focus, self.export.options.force) = (Some(dialog), true, false);
-        self.reading_since = None;
+        self.waiting = None;
         (self.export.options.layer, self.export.options.region) = (None, None);
         self.problem.clear();
         self.is_new = true;
@@ -102,7 +107,7 @@ impl Dialogs {
     /// Takes a file that was dropped on the window, where the open dialog asks for a file other than a photograph: as if its path had been
     /// typed and confirmed. Returns whether there was such a file.
     pub fn take_dropped(&mut self, ctx: &egui::Context) -> bool {
-        if self.dialog.is_none_or(|dialog| dialog == Dialog::Open || !reads(dialog)) {
+        if self.dialog.is_none_or(|dialog| dialog == Dialog::Open || !dialog.reads()) {
             return false;
         }
         let first = |input: &egui::InputState| Some(input.raw.dropped_files.first()?.path().to_path_buf());
@@ -115,7 +120,7 @@ impl Dialogs {
 
     /// Closes the dialog, and gives the focus back.
     pub fn close(&mut self, ctx: &egui::Context) {
-        (self.dialog, self.reading_since) = (None, None);
+        (self.dialog, self.waiting) = (None, None);
         self.problem.clear();
         if let Some(id) = self.focus_before.take() {
             ctx.memory_mut(|memory| memory.request_focus(id));
@@ -137,29 +142,19 @@ impl Dialogs {
         if std::mem::take(&mut self.is_new) {
             self.focus_before = ui.memory(egui::Memory::focused);
         }
-        let title = match dialog {
-            Dialog::Open => "Open",
-            Dialog::LoadParameters => "Load parameters",
-            Dialog::SaveParameters => "Save parameters",
-            Dialog::OpenWorkspace => "Open workspace",
-            Dialog::OpenElsewhere(ElsewhereKind::Labels) => "Open a label map of another program",
-            Dialog::OpenElsewhere(ElsewhereKind::Diffuse) => "Open a diffuse picture of another program",
-            Dialog::SaveWorkspace => "Save workspace",
-            Dialog::Export => "Export",
-        };
         let mut open = true;
-        let window = egui::Window::new(title).open(&mut open).collapsible(false).resizable(false);
+        let window = egui::Window::new(dialog.title()).open(&mut open).collapsible(false).resizable(false);
         let shown = window.default_width(480.0).anchor(egui::Align2::CENTER_TOP, egui::vec2(0.0, 64.0)).show(
             ui.ctx(),
             |ui| {
                 if dialog == Dialog::Export {
                     self.export_form(ui, cx);
                 }
-                let is_done = self.path_row(ui, dialog, cx);
+                self.path_row(ui, dialog, cx);
                 if let Dialog::OpenElsewhere(kind) = dialog {
                     elsewhere_note(ui, cx, kind);
                 }
-                if dialog == Dialog::Open { Self::samples_and_recent(ui, cx) || is_done } else { is_done }
+                dialog == Dialog::Open && Self::samples_and_recent(ui, cx)
             },
         );
         if let Some(shown) = &shown {
@@ -178,19 +173,14 @@ impl Dialogs {
             self.path = proposed_path(self.export.kind, cx).display().to_string();
         }
         if self.export.show(ui, cx) {
+            self.problem.clear();
             self.path = proposed_path(self.export.kind, cx).display().to_string();
             self.focus = true;
         }
     }
 
-    /// Shows the path's field and the buttons. Returns whether the dialog was confirmed.
-    fn path_row(&mut self, ui: &mut Ui, dialog: Dialog, cx: &mut PanelContext) -> bool {
-        let button_text = match dialog {
-            Dialog::Open | Dialog::OpenWorkspace | Dialog::OpenElsewhere(_) => "Open",
-            Dialog::LoadParameters => "Load",
-            Dialog::SaveParameters | Dialog::SaveWorkspace => "Save",
-            Dialog::Export => "Export",
-        };
+    /// Shows the path's field, the buttons, and what is under way or went wrong.
+    fn path_row(&mut self, ui: &mut Ui, dialog: Dialog, cx: &mut PanelContext) {
         let mut confirmed = std::mem::take(&mut self.is_confirmed);
         ui.horizontal(|ui| {
             let label = ui.label("Path");
@@ -209,33 +199,35 @@ impl Dialogs {
             if browse.on_hover_text("The system's own dialog, where it has one.").clicked() {
                 self.browse(ui.ctx(), dialog);
             }
-            let ready = !self.path.trim().is_empty() && self.reading_since.is_none();
+            let ready = !self.path.trim().is_empty() && self.waiting.is_none();
             confirmed |= ui
-                .add_enabled(ready, egui::Button::new(RichText::new(button_text).color(cx.palette.accent)))
+                .add_enabled(
+                    ready,
+                    egui::Button::new(RichText::new(dialog.button()).color(cx.palette.accent)),
+                )
                 .clicked();
             confirmed &= ready;
         });
-        if self.reading_since.is_some() {
-            ui.label(RichText::new("Reading\u{2026}").color(cx.palette.secondary));
+        if let Some(waiting) = self.waiting {
+            ui.label(RichText::new(waiting.text()).color(cx.palette.secondary));
         }
         if !self.problem.is_empty() {
             ui.add(egui::Label::new(RichText::new(&self.problem).color(cx.palette.error)).wrap());
         }
-        confirmed && self.confirm(dialog, cx)
+        if confirmed {
+            self.confirm(dialog, cx);
+        }
     }
 
-    /// Does what the dialog is for with the typed path. Returns whether the dialog is done: it stays open for a path that cannot be read, and while
-    /// a file is being read.
-    fn confirm(&mut self, dialog: Dialog, cx: &mut PanelContext) -> bool {
+    /// Does what the dialog is for with the typed path, or says what is wrong with the path. The dialog closes when the work has ended well.
+    fn confirm(&mut self, dialog: Dialog, cx: &mut PanelContext) {
         let path = typed_path(&self.path).unwrap_or_default();
-        if let Some(problem) = problem_of(dialog, &path) {
-            // The text stays, so that the text can be corrected.
-            (self.problem, self.focus) = (problem, true);
-            return false;
+        if let Some(problem) = problem_of(dialog, &path, cx.state) {
+            return self.fail(problem);
         }
-        if reads(dialog) {
-            self.reading_since = Some(newest_notice(cx));
-        }
+        self.problem.clear();
+        self.waiting =
+            Some(if dialog.reads() { Waiting::Reading(newest_notice(cx)) } else { Waiting::Writing });
         cx.send(match dialog {
             Dialog::Open if is_workspace(&path) => JobCommand::OpenWorkspace(path),
             Dialog::Open => JobCommand::Open(Origin::File(path)),
@@ -245,9 +237,10 @@ impl Dialogs {
             Dialog::SaveParameters => JobCommand::Export(ExportKind::Parameters.to(path)),
             Dialog::SaveWorkspace => JobCommand::Export(ExportKind::Workspace.to(workspace_path(path))),
             Dialog::Export if self.export.kind == ExportKind::View => {
+                self.waiting = Some(Waiting::Drawing);
                 self.view_export =
                     Some(ViewExport { pane: self.export.view, size_px: self.export.size_px, path });
-                return true;
+                return;
             }
             Dialog::Export => JobCommand::Export(Export {
                 kind: self.export.kind,
@@ -255,18 +248,46 @@ impl Dialogs {
                 options: self.export.options.clone(),
             }),
         });
-        !reads(dialog)
     }
 
-    /// Closes the dialog when the confirmed file has been read. Where the file could not be read, the dialog stays, and the
-    /// error moves from the notices into the dialog.
+    /// Says in the dialog what failed. Everything that was entered stays, so that it can be corrected.
+    fn fail(&mut self, problem: String) {
+        (self.problem, self.focus, self.waiting) = (problem, true, None);
+    }
+
+    /// Takes a view that was drawn: it is written, or the dialog says why it was not drawn. Where the dialog was closed meanwhile, a
+    /// notice says so.
+    pub fn take_drawn(&mut self, drawn: Result<Export, String>, cx: &mut PanelContext) {
+        let is_awaited = self.waiting == Some(Waiting::Drawing);
+        match drawn {
+            Ok(export) => {
+                if is_awaited {
+                    self.waiting = Some(Waiting::Writing);
+                }
+                cx.send(JobCommand::Export(export));
+            }
+            Err(problem) if is_awaited => self.fail(problem),
+            Err(problem) => cx.send(ViewCommand::Notify(Severity::Error, problem)),
+        }
+    }
+
+    /// Closes the dialog when the confirmed work has ended well. Where the work failed, the dialog stays, and the error moves from the notices
+    /// into the dialog.
     fn take_outcome(&mut self, ui: &Ui, cx: &mut PanelContext) {
-        let Some(before) = self.reading_since.filter(|_| cx.state.jobs.reading.is_none()) else { return };
-        self.reading_since = None;
-        let is_new_error = |notice: &&Notice| notice.severity == Severity::Error && notice.id > before;
-        match cx.state.notices.iter().find(is_new_error) {
+        let jobs = cx.state.jobs;
+        let notices = &cx.state.notices;
+        let failure: Option<&Notice> = match self.waiting {
+            Some(Waiting::Reading(before)) if jobs.reading.is_none() => {
+                notices.iter().find(|notice| notice.severity == Severity::Error && notice.id > before)
+            }
+            Some(Waiting::Writing) if jobs.export.is_none() => {
+                notices.iter().find(|notice| Some(notice.id) == jobs.failed_export)
+            }
+            _ => return,
+        };
+        match failure {
             Some(error) => {
-                (self.problem, self.focus) = (error.text.clone(), true);
+                self.fail(error.text.clone());
                 cx.send(ViewCommand::Dismiss(error.id));
             }
             None => self.close(ui.ctx()),
@@ -306,7 +327,7 @@ impl Dialogs {
     fn browse(&mut self, ctx: &egui::Context, dialog: Dialog) {
         let wanted = match dialog {
             Dialog::Export if self.export.kind.is_folder() => Wanted::Folder,
-            _ if reads(dialog) => Wanted::FileToRead,
+            _ if dialog.reads() => Wanted::FileToRead,
             _ => Wanted::FileToWrite,
         };
         self.problem.clear();
@@ -352,19 +373,18 @@ fn workspace_path(path: PathBuf) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// Whether a dialog reads a file; other dialogs write one.
-const fn reads(dialog: Dialog) -> bool {
-    matches!(dialog, Dialog::Open | Dialog::LoadParameters | Dialog::OpenWorkspace | Dialog::OpenElsewhere(_))
-}
-
 /// The id of the newest notice; 0 without a notice.
 fn newest_notice(cx: &PanelContext) -> u64 {
     cx.state.notices.iter().map(|notice| notice.id).max().unwrap_or(0)
 }
 
-/// What is wrong with a path that is to be read; none where the path is a file, or is to be written.
-fn problem_of(dialog: Dialog, path: &Path) -> Option<String> {
-    if !reads(dialog) || path.is_file() {
+/// What speaks against the work of a dialog; none where the path is a file that can be read, or can be written now.
+fn problem_of(dialog: Dialog, path: &Path, state: &State) -> Option<String> {
+    if !dialog.reads() {
+        let busy = "another export is still under way: wait for its end, or cancel it, and then try again";
+        return state.jobs.export.is_some().then(|| busy.to_owned());
+    }
+    if path.is_file() {
         return None;
     }
     let what = if path.is_dir() { "is a folder, not a file" } else { "there is no such file" };
@@ -389,12 +409,12 @@ mod tests {
 
     #[test]
     fn a_path_that_cannot_be_read_has_a_problem_and_a_path_to_be_written_has_none() {
-        let folder = tempfile::tempdir().unwrap();
+        let (folder, state) = (tempfile::tempdir().unwrap(), State::default());
         let missing = folder.path().join("x.png");
-        assert!(problem_of(Dialog::Open, &missing).unwrap().contains("no such file"));
-        assert!(problem_of(Dialog::OpenWorkspace, folder.path()).unwrap().contains("is a folder"));
-        assert_eq!(problem_of(Dialog::Export, &missing), None);
+        assert!(problem_of(Dialog::Open, &missing, &state).unwrap().contains("no such file"));
+        assert!(problem_of(Dialog::OpenWorkspace, folder.path(), &state).unwrap().contains("is a folder"));
+        assert_eq!(problem_of(Dialog::Export, &missing, &state), None);
         std::fs::write(&missing, "").unwrap();
-        assert_eq!(problem_of(Dialog::Open, &missing), None);
+        assert_eq!(problem_of(Dialog::Open, &missing, &state), None);
     }
 }

@@ -14,6 +14,7 @@ mod compare_panel;
 mod context_menu;
 mod cube_panel;
 mod cursor_owners;
+mod dialog;
 mod dock;
 mod dropped_files;
 mod elsewhere_section;

@@ -1,6 +1,7 @@
 //! Carries out actions that do not belong to one panel.
 
 use super::action::Action;
+use super::dialog::Dialog;
 use super::menu::READINGS;
 use super::move_cursor::move_cursor;
 use super::{PanelContext, files};
@@ -14,19 +15,19 @@ use std::sync::Arc;
 /// Carries out an action: sends its command, or opens a dialog or the list of keys (`help`).
 pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dialogs, help: &mut bool) {
     match action {
-        Action::Open => dialogs.open(files::Dialog::Open),
-        Action::OpenWorkspace => dialogs.open(files::Dialog::OpenWorkspace),
-        Action::SaveWorkspaceAs => dialogs.open(files::Dialog::SaveWorkspace),
-        Action::LoadParameters => dialogs.open(files::Dialog::LoadParameters),
-        Action::SaveParameters => dialogs.open(files::Dialog::SaveParameters),
-        Action::OpenElsewhere(kind) => dialogs.open(files::Dialog::OpenElsewhere(kind)),
+        Action::Open => dialogs.open(Dialog::Open),
+        Action::OpenWorkspace => dialogs.open(Dialog::OpenWorkspace),
+        Action::SaveWorkspaceAs => dialogs.open(Dialog::SaveWorkspace),
+        Action::LoadParameters => dialogs.open(Dialog::LoadParameters),
+        Action::SaveParameters => dialogs.open(Dialog::SaveParameters),
+        Action::OpenElsewhere(kind) => dialogs.open(Dialog::OpenElsewhere(kind)),
         Action::CloseElsewhere(kind) => cx.send(ViewCommand::CloseElsewhere(kind)),
-        Action::Export => dialogs.open(files::Dialog::Export),
+        Action::Export => dialogs.open(Dialog::Export),
         Action::ExportLayer(layer, file) => dialogs.open_layer_export(cx, layer, file),
         Action::ExportPixels(pixels) => dialogs.open_pixels_export(cx, pixels),
         Action::Save => match cx.state.workspace_path.clone() {
             Some(path) => cx.send(JobCommand::Export(ExportKind::Workspace.to(path))),
-            None => dialogs.open(files::Dialog::SaveWorkspace),
+            None => dialogs.open(Dialog::SaveWorkspace),
         },
         // The window closes itself, arranges its panels, knows where they are and has the clipboard: an action has no window.
         Action::Quit

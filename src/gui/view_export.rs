@@ -7,9 +7,7 @@ use super::offscreen::OffscreenContext;
 use super::pane::Pane;
 use super::task::Task;
 use super::theme::{self, ThemeColors};
-use crate::app::{
-    Command, DrawnPicture, Export, ExportKind, ExportOptions, JobCommand, Severity, State, ViewCommand,
-};
+use crate::app::{DrawnPicture, Export, ExportKind, ExportOptions, State};
 use egui_wgpu::{RenderState, WgpuSetupExisting};
 use std::path::PathBuf;
 
@@ -27,11 +25,13 @@ pub struct ViewExport {
 /// Draws views on a thread, so that the window stays responsive.
 #[derive(Default)]
 pub struct ViewExporter {
-    drawing: Option<Task<Command>>,
+    drawing: Option<Task<Result<Export, String>>>,
+    /// The file of the view that was begun, until [`ViewExporter::take_drawn`] has returned how that ended.
+    begun: Option<PathBuf>,
 }
 
 impl ViewExporter {
-    /// Begins to draw. A later [`ViewExporter::take_command`] returns the command that writes the picture.
+    /// Begins to draw. A later [`ViewExporter::take_drawn`] returns the picture to be written.
     pub fn begin(
         &mut self,
         ctx: &egui::Context,
@@ -39,23 +39,35 @@ impl ViewExporter {
         cx: &PanelContext,
         cube: &CubePanel,
     ) {
+        self.begun = Some(view_export.path.clone());
         let Some(gpu) = cx.gpu.cloned() else { return };
         let (state, cube) = (cx.state.clone(), cube.clone_with_camera());
         let draw = move || draw(&view_export, &state, cube, &gpu);
         self.drawing = Task::start(ctx, "view export", draw);
     }
 
-    /// The command that writes the picture, once the picture is drawn; none before.
-    pub fn take_command(&mut self) -> Option<Command> {
-        Task::take(&mut self.drawing)
+    /// The picture to be written once it is drawn, or why it was not drawn; none before, and none where nothing was begun.
+    pub fn take_drawn(&mut self) -> Option<Result<Export, String>> {
+        let drawn = Task::take(&mut self.drawing);
+        if drawn.is_none() && self.drawing.is_some() {
+            return None;
+        }
+        let path = self.begun.take()?;
+        // A task that ended by a panic, or that could not start, has no result.
+        Some(drawn.unwrap_or_else(|| Err(format!("{}: the view was not drawn; try again", path.display()))))
     }
 }
 
 /// Pictures of at most this many columns have one pixel for each point; in wider pictures, text and lines grow with the size.
 const COLUMNS_AT_SCALE_ONE: f32 = 900.0;
 
-/// Draws a view off screen; returns the command that writes the picture, or the notice of a failure.
-fn draw(view_export: &ViewExport, state: &State, cube: CubePanel, gpu: &RenderState) -> Command {
+/// Draws a view off screen; returns the picture to be written, or why it was not drawn.
+fn draw(
+    view_export: &ViewExport,
+    state: &State,
+    cube: CubePanel,
+    gpu: &RenderState,
+) -> Result<Export, String> {
     let RenderState { instance, adapter, device, queue, .. } = gpu.clone();
     let device_setup = WgpuSetupExisting { instance, adapter, device, queue };
     let pixels_per_point = (view_export.size_px[0] as f32 / COLUMNS_AT_SCALE_ONE).max(1.0);
@@ -79,18 +91,10 @@ fn draw(view_export: &ViewExport, state: &State, cube: CubePanel, gpu: &RenderSt
             })
         },
     );
-    match drawn {
-        Ok(rgba) => JobCommand::Export(Export {
-            options: ExportOptions {
-                drawn: Some(DrawnPicture { size: view_export.size_px, rgba: rgba.into() }),
-                ..ExportOptions::default()
-            },
-            ..ExportKind::View.to(view_export.path.clone())
-        })
-        .into(),
-        Err(error) => {
-            let text = format!("{}: {error}", view_export.path.display());
-            ViewCommand::Notify(Severity::Error, text).into()
-        }
-    }
+    let rgba = drawn.map_err(|error| {
+        format!("{}: {error}; choose another size, and try again", view_export.path.display())
+    })?;
+    let drawn = Some(DrawnPicture { size: view_export.size_px, rgba: rgba.into() });
+    let options = ExportOptions { drawn, ..ExportOptions::default() };
+    Ok(Export { options, ..ExportKind::View.to(view_export.path.clone()) })
 }

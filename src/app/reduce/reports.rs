@@ -91,13 +91,16 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
 
 /// Ends an export. `workspace`: where the export was a workspace, which is from now on the one that is saved to.
 fn end_export(state: &mut State, outcome: Result<String, String>, workspace: Option<PathBuf>) {
-    state.jobs.export = None;
+    (state.jobs.export, state.jobs.failed_export) = (None, None);
     match outcome {
         Ok(text) => {
             state.workspace_path = workspace.or(state.workspace_path.take());
             state.notify(Severity::Done, text);
         }
-        Err(reason) => state.notify(Severity::Error, reason),
+        Err(reason) => {
+            state.notify(Severity::Error, reason);
+            state.jobs.failed_export = Some(state.notices_so_far);
+        }
     }
 }
 
@@ -118,6 +121,9 @@ fn end_panicked(state: &mut State, work: Work, reason: &str) -> Vec<Effect> {
         work.name()
     );
     state.notify(Severity::Error, text);
+    if work == Work::Export {
+        state.jobs.failed_export = Some(state.notices_so_far);
+    }
     let is_work_lost = state.picture.is_some() && work != Work::Rescue;
     if is_work_lost { vec![Effect::Rescue] } else { Vec::new() }
 }

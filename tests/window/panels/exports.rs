@@ -1,16 +1,17 @@
 //! Files exported from the window equal those that the library writes. `tests/cli` tests the same of the command line.
 
 use crate::window::{
-    Window, answer, apply, choose, click, marked, named, notice, open_sample, press, region, shown, sigma,
-    state, tiny, tiny_window,
+    Fixture, Window, answer, apply, choose, click, marked, named, notice, open_sample, press, region, says,
+    shown, sigma, state, tiny, tiny_window, with_gpu,
 };
-use dichroscope::app::Edit;
+use dichroscope::app::{Edit, Severity};
 use dichroscope::export::{WholeResult, read_report, write_matte};
 use dichroscope::params::Setting;
 use dichroscope::truth::sample;
 use dichroscope::view::{Layer, Separator, regions_text};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable;
 use std::fs;
 use std::path::Path;
 
@@ -71,7 +72,97 @@ fn everything_is_what_the_library_writes() {
     press(&mut window, Modifiers::COMMAND, Key::E);
     answer(&mut window, &letters);
     assert_eq!(names(&letters), ["love.txt"]);
-    assert!(notice(&window).contains("letters"), "{}", notice(&window));
+    assert!(says(&window, "letters holds something else than an earlier result"));
+    // The dialog offers what its sentence asks for.
+    click(&mut window, Role::CheckBox, "replace the folder whatever it holds");
+    answer(&mut window, &letters);
+    assert_eq!(names(&letters), names(&theirs));
+}
+
+/// Whether the dialog that asks for a path is open, and what is typed in it.
+fn typed(window: &Window) -> Option<String> {
+    window.query_by_role(Role::TextInput).and_then(|field| field.value())
+}
+
+#[test]
+fn an_export_that_fails_leaves_the_dialog_as_it_was_and_another_path_succeeds() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    fs::write(&file, "").unwrap();
+    let mut window = tiny_window();
+    press(&mut window, Modifiers::COMMAND, Key::E);
+    named(&window, Role::Slider, "surface reflection kept").set_value_accesskit(0.5);
+    window.run_steps(2);
+    // No file can be made in a file.
+    let wrong = file.join("half.png");
+    answer(&mut window, &wrong);
+    assert_eq!(typed(&window), Some(wrong.display().to_string()));
+    assert!(
+        says(&window, &format!("cannot write {}: ", wrong.display()))
+            && says(&window, "choose another place")
+    );
+    assert!(state(&window).notices.iter().all(|notice| notice.severity != Severity::Error), "told once");
+    for ware in ["Profile", "Photograph without highlights"] {
+        click(&mut window, Role::RadioButton, ware);
+        assert!(!says(&window, "cannot write "), "of another kind nothing is known");
+    }
+    let right = folder.path().join("half.png");
+    answer(&mut window, &right);
+    assert_eq!(typed(&window), None, "the dialog is closed");
+    assert!(notice(&window).contains("with 50 % of its surface reflection"), "{}", notice(&window));
+    assert!(right.is_file());
+
+    for (menu, entry, name) in
+        [("File", "Save workspace as", "evening.dichroscope"), ("Analyze", "Save parameters", "evening.toml")]
+    {
+        choose(&mut window, menu, entry);
+        let wrong = file.join(name);
+        answer(&mut window, &wrong);
+        assert_eq!(typed(&window), Some(wrong.display().to_string()), "{entry}");
+        assert!(says(&window, "cannot write "), "{entry}");
+        answer(&mut window, &folder.path().join(name));
+        assert_eq!(typed(&window), None, "{entry}");
+        assert!(folder.path().join(name).is_file(), "{entry}");
+    }
+}
+
+#[test]
+fn a_view_that_cannot_be_written_leaves_the_dialog_and_a_closed_dialog_leaves_a_notice() {
+    let folder = tempfile::tempdir().unwrap();
+    let file = folder.path().join("file");
+    fs::write(&file, "").unwrap();
+    let Some(mut window) = with_gpu(egui::vec2(1280.0, 800.0), Fixture::Tiny) else { return };
+    press(&mut window, Modifiers::COMMAND, Key::E);
+    click(&mut window, Role::RadioButton, "A view as PNG");
+    let wrong = file.join("view.png");
+    answer(&mut window, &wrong);
+    until(&mut window, |window| says(window, "cannot write "));
+    assert_eq!(typed(&window), Some(wrong.display().to_string()));
+    let right = folder.path().join("view.png");
+    answer(&mut window, &right);
+    until(&mut window, |window| typed(window).is_none());
+    assert!(right.is_file(), "the dialog closes when the picture is written");
+
+    press(&mut window, Modifiers::COMMAND, Key::E);
+    answer(&mut window, &wrong);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert_eq!(typed(&window), None);
+    until(&mut window, |window| {
+        state(window).notices.iter().any(|notice| notice.text.contains("cannot write "))
+    });
+}
+
+/// Draws frames until a view that is drawn on a thread has come as far as `is_done` says.
+#[track_caller]
+fn until(window: &mut Window, is_done: impl Fn(&Window) -> bool) {
+    for _ in 0..600 {
+        if is_done(window) {
+            return;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(50));
+        window.run_steps(1);
+    }
+    panic!("it does not end");
 }
 
 #[test]
