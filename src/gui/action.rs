@@ -1,10 +1,12 @@
 //! What keys, menus and buttons do: the vocabulary that shortcuts, menus, toolbars and panels share.
 
+use super::cube_choices::NamedView;
 use super::pane::Pane;
 use crate::app::{Direction, StepUnit, Switching};
 use crate::params::{Method, Preset};
 use crate::raster::RegionId;
-use crate::view::{ArrangementKind, ElsewhereKind, Layer, Theme, Tool};
+use crate::trace::Kind;
+use crate::view::{ArrangementKind, ColorBy, ColorSpace, ElsewhereKind, Layer, Theme, Tool};
 
 /// What a key or a menu does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -43,6 +45,8 @@ pub enum Action {
     Save,
     /// Show another open photograph.
     Switch(Switching),
+    /// Stop the export under way.
+    CancelExport,
     /// Close the photograph that is shown.
     ClosePhotograph,
     /// Compare the next open photograph in the second view, or no longer.
@@ -63,6 +67,8 @@ pub enum Action {
     MarkRegion,
     /// Keep the marked pixels under a name.
     KeepMark,
+    /// Let the tools change no named mark any more.
+    ReleaseMark,
     /// Fit a skewed T to the marked pixels.
     FitSkewedT,
     /// Analyze only the marked pixels.
@@ -73,6 +79,14 @@ pub enum Action {
     Method(Method),
     /// Take the parameters of a column of table 6.
     Preset(Preset),
+    /// Take the default of every parameter and switch of the method in force.
+    ResetParameters,
+    /// Keep a lamp that was found, or let it be found again.
+    PinLamp(Lamp),
+    /// Let the ambient light be found, or take none.
+    AmbientAuto,
+    /// Search for the parameters that would change the fate of the clicked pixel, or stop the search.
+    FindWhatIf,
     /// Select nothing.
     Escape,
     /// Select the region after (`true`) or before the selected one.
@@ -85,8 +99,26 @@ pub enum Action {
     SecondLayer(Layer),
     /// Use this tool in the image view, and in the color space view where it has the tool.
     Tool(Tool),
+    /// Change what the color space view shows, or from where.
+    Cube(CubeAction),
+    /// Color the points of the plane view by what they are to the region (`true`), or as they were measured.
+    PlaneByLabel(bool),
+    /// Use this tool in the plane view.
+    PlaneTool(Tool),
+    /// Lay the profile along the column (`true`) or the row of the selected or hovered pixel.
+    Profile(bool),
+    /// Draw the sphere of section 3 in the color space and the plane, or no longer.
+    DrawSphere,
+    /// Copy the table of the regions.
+    CopyRegions,
+    /// Copy the numbers of the profile.
+    CopyProfile,
     /// Keep the result to compare with, or drop the kept one.
     Pin,
+    /// Keep the newest result in the place of the kept one.
+    PinAnew,
+    /// Go to the first decision in which the pinned and the newest analysis differ.
+    FirstDifference,
     /// Switch between the pinned result and the newest.
     Swap,
     /// Fit the whole picture into the image view.
@@ -105,6 +137,8 @@ pub enum Action {
     UseTheme(Theme),
     /// Move the debugger's cursor, or start or stop recording.
     Debug(DebugAction),
+    /// Remove all notices.
+    DismissNotices,
     /// Show every action by its name.
     Palette,
     /// Open the first menu of the menu bar, or close the open one.
@@ -147,6 +181,32 @@ pub enum ViewStep {
     Up,
     /// Show more of the bottom.
     Down,
+}
+
+/// A change of the color space view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CubeAction {
+    /// Color the points by this.
+    ColorBy(ColorBy),
+    /// Show this space.
+    Space(ColorSpace),
+    /// Move the camera to a named view.
+    View(NamedView),
+    /// Switch between perspective and orthographic projection.
+    Perspective,
+    /// Switch a shape or a look of the points, by its index in the list of boxes.
+    Box(usize),
+    /// Keep the camera when another region is selected, or no longer.
+    Lock,
+}
+
+/// One of the two lamps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Lamp {
+    /// The light.
+    First,
+    /// The second lamp.
+    Second,
 }
 
 /// Pixels that are exported.
@@ -211,6 +271,10 @@ pub enum DebugAction {
     Breakpoint(Direction),
     /// Move to the next change of the selected item in this direction.
     Change(Direction),
+    /// Move to the next event of a kind.
+    Next(Kind),
+    /// Begin anew at the end of the trace while playing, or stop there.
+    Loop,
     /// Start or stop recording decisions.
     Record,
 }

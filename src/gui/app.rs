@@ -1,8 +1,9 @@
 //! The window's content: the application, the panels, and input from keyboard and desktop.
 
-use super::action::Action;
+use super::action::{Action, CubeAction};
 use super::command_palette::CommandPalette;
 use super::compact_dock::CompactDock;
+use super::cube_choices::{NEEDS_PLANE, NamedView};
 use super::dock::{Dock, Panels, TAB_BAR_PT};
 use super::dropped_files::{open_dropped, open_pasted};
 use super::files::Dialogs;
@@ -12,10 +13,10 @@ use super::pane::Pane;
 use super::panel_context::LastHover;
 use super::theme::{self, ThemeColors};
 use super::view_export::ViewExporter;
-use super::{PanelContext, menu, notices, perform, shortcuts, task, timeline_panel, widgets};
+use super::{PanelContext, copied_texts, menu, notices, perform, shortcuts, task, timeline_panel, widgets};
 use crate::app::{
     Application, Command, DebugCommand, Executor, JobCommand, Settings, Severity, State, ViewCommand,
-    analyze_call, catch_panic,
+    catch_panic,
 };
 use crate::view::{ProfileLine, Theme, Tool};
 use egui::{Event, RichText, Ui};
@@ -292,7 +293,11 @@ impl WindowContent {
                 Action::ShowAll => self.dock.reset(),
                 Action::Palette => self.command_palette.toggle(ui.ctx()),
                 Action::Menus => self.menu_keys.toggle(ui.ctx()),
-                Action::CopyCommandLine => copy_command_line(ui, cx),
+                Action::CopyCommandLine => copied_texts::copy_command_line(ui, cx),
+                Action::CopyRegions => copied_texts::copy_regions(ui, cx),
+                Action::CopyProfile => copied_texts::copy_profile(ui, cx),
+                Action::Cube(CubeAction::View(view)) => self.turn_cube(cx, view),
+                Action::Cube(CubeAction::Perspective) => self.panels.cube.toggle_projection(),
                 Action::View(step) => self.panels.image.step_view(ui.ctx(), cx, step),
                 _ => perform::carry_out(action, cx, &mut self.dialogs, &mut self.help),
             }
@@ -334,6 +339,14 @@ impl WindowContent {
             self.compact_dock.show(ui, &self.dock, &mut self.panels, cx);
         } else {
             self.dock.show(ui, &mut self.panels, cx);
+        }
+    }
+
+    /// Shows the color space from a named view.
+    fn turn_cube(&mut self, cx: &mut PanelContext, view: NamedView) {
+        self.raise(Pane::Colors);
+        if !self.panels.cube.go_to_view(cx.state, view) {
+            cx.send(ViewCommand::Notify(Severity::Warning, NEEDS_PLANE.to_owned()));
         }
     }
 
@@ -392,15 +405,6 @@ fn all_panels_hidden(ui: &mut Ui, cx: &mut PanelContext) {
             }
         });
     });
-}
-
-/// Copies the call of the program that reproduces what is on the screen.
-fn copy_command_line(ui: &Ui, cx: &mut PanelContext) {
-    if cx.state.picture.is_some() {
-        ui.ctx().copy_text(analyze_call(cx.state));
-        let text = "the command line is in the clipboard".to_owned();
-        cx.send(ViewCommand::Notify(Severity::Done, text));
-    }
 }
 
 /// Draws a frame with `draw`. After a panic of `draw`, the result is false, and the panic becomes a notice with which the

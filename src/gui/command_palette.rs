@@ -1,107 +1,10 @@
 //! The command palette: every action by its name, found by typing some of its letters, with its key.
 
-use super::action::{Action, LayerFile, PixelSet};
-use super::menu::{READINGS, THEMES, method_name};
-use super::pane::Pane;
-use super::shortcuts::{keys_of, named_actions};
+use super::command_list::{Entry, entries};
+use super::shortcuts::keys_of;
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
-use crate::params::{Method, Preset};
-use crate::truth::sample::SAMPLES;
-use crate::view::{ArrangementKind, ElsewhereKind, Layer};
 use egui::{Button, Id, Key, Modifiers, RichText, ScrollArea, TextEdit, Ui};
-
-/// An action with the name under which it is found.
-struct Entry {
-    action: Action,
-    /// Group and name, such as "Image: Body reflection".
-    name: String,
-}
-
-/// All actions. An action with several keys is listed once.
-fn entries() -> Vec<Entry> {
-    let mut entries: Vec<Entry> = Vec::new();
-    let keyed =
-        named_actions().map(|(group, name, action)| Entry { action, name: format!("{group}: {name}") });
-    let layers = Layer::ALL
-        .into_iter()
-        .map(|layer| Entry { action: Action::Layer(layer), name: format!("Image: layer {}", layer.name()) });
-    let arrangements = ArrangementKind::ALL
-        .into_iter()
-        .map(|kind| Entry { action: Action::Arrange(kind), name: format!("Image: {}", kind.name()) });
-    let second_layers = Layer::ALL.into_iter().map(|layer| Entry {
-        action: Action::SecondLayer(layer),
-        name: format!("Image: second layer {}", layer.name()),
-    });
-    let layer_files = Layer::ALL.into_iter().flat_map(|layer| {
-        LayerFile::ALL.map(|file| Entry {
-            action: Action::ExportLayer(layer, file),
-            name: format!("Export: layer {} as {}", layer.name(), file.name()),
-        })
-    });
-    let panes = Pane::ALL
-        .into_iter()
-        .map(|pane| Entry { action: Action::Show(pane), name: format!("Show: {}", pane.title()) });
-    let others = [
-        (Action::OpenWorkspace, "File: Open a workspace"),
-        (Action::SaveWorkspaceAs, "File: Save the workspace as another file"),
-        (Action::ThreeLamps, "File: Open the sample scenes of three lamps"),
-        (Action::ForgetRecent, "File: Forget the photographs opened before"),
-        (Action::LoadParameters, "Analyze: Load parameters"),
-        (Action::SaveParameters, "Analyze: Save parameters"),
-        (Action::AnalyzeMarked, "Analyze: Only the marked pixels"),
-        (Action::AnalyzeAll, "Analyze: The whole picture"),
-        (Action::CopyCommandLine, "Analyze: Copy as command line"),
-        (Action::OpenElsewhere(ElsewhereKind::Labels), "File: Open a label map of another program"),
-        (Action::OpenElsewhere(ElsewhereKind::Diffuse), "File: Open a diffuse picture of another program"),
-        (Action::CloseElsewhere(ElsewhereKind::Labels), "File: Close the label map of another program"),
-        (
-            Action::CloseElsewhere(ElsewhereKind::Diffuse),
-            "File: Close the diffuse picture of another program",
-        ),
-        (Action::ExportPixels(PixelSet::Marked), "Export: marked pixels"),
-        (Action::ExportPixels(PixelSet::SelectedRegion), "Export: pixels of the selected region"),
-        (Action::ShowAll, "Window: Arrange the panels as at first"),
-    ];
-    let others = others.map(|(action, name)| Entry { action, name: name.to_owned() });
-    let of_menus = choices_of_menus();
-    for entry in keyed
-        .chain(layers)
-        .chain(arrangements)
-        .chain(second_layers)
-        .chain(panes)
-        .chain(of_menus)
-        .chain(layer_files)
-        .chain(others)
-    {
-        let opens_a_list = matches!(entry.action, Action::Palette | Action::Menus);
-        if !opens_a_list && entries.iter().all(|known| known.action != entry.action) {
-            entries.push(entry);
-        }
-    }
-    entries
-}
-
-/// The choices of menus: scenes, encodings, methods, columns of table 6 and themes.
-fn choices_of_menus() -> impl Iterator<Item = Entry> {
-    let samples = SAMPLES.iter().enumerate().map(|(index, sample)| {
-        (Action::Sample(index), format!("File: Open the sample scene {}", sample.name))
-    });
-    let readings = READINGS
-        .iter()
-        .enumerate()
-        .map(|(index, reading)| (Action::ReadAs(index), format!("File: Read as {}", reading.name)));
-    let methods = Method::ALL
-        .into_iter()
-        .map(|method| (Action::Method(method), format!("Analyze: {}", method_name(method))));
-    let presets = Preset::ALL
-        .into_iter()
-        .map(|preset| (Action::Preset(preset), format!("Analyze: Preset of table 6, {}", preset.title())));
-    let themes =
-        THEMES.into_iter().map(|(theme, name)| (Action::UseTheme(theme), format!("Window: {name} theme")));
-    let all = samples.chain(readings).chain(methods).chain(presets).chain(themes);
-    all.map(|(action, name)| Entry { action, name })
-}
 
 /// Whether a name contains every word of a query, in any order and case.
 fn matches(name: &str, query: &str) -> bool {
@@ -226,7 +129,11 @@ fn row(ui: &mut Ui, entry: &Entry, is_chosen: bool) -> egui::Response {
 mod tests {
     use super::*;
     use crate::app::State;
+    use crate::gui::action::Action;
     use crate::gui::menu::testing::shown_rows;
+    use crate::gui::pane::Pane;
+    use crate::gui::shortcuts::named_actions;
+    use crate::view::{ArrangementKind, Layer};
 
     #[test]
     fn every_action_is_listed_once_under_a_name_of_its_own() {
@@ -254,7 +161,8 @@ mod tests {
             shown.iter().copied().chain(keyed).chain(arrangements).filter(is_missing).collect();
         assert!(missing.is_empty(), "actions without an entry: {missing:?}");
         // Submenus, and the name of the photograph.
-        let no_commands = ["Open recent", "Sample scenes", "Read as", "Presets of table 6", ""];
+        let no_commands =
+            ["Open recent", "Sample scenes", "Read as", "Presets of table 6", "Color space settings", ""];
         let forgotten: Vec<_> = unnamed.iter().filter(|name| !no_commands.contains(&name.as_str())).collect();
         assert!(forgotten.is_empty(), "rows without an action: {forgotten:?}");
         assert!(shown.len() > 60, "{}", shown.len());

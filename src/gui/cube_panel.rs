@@ -14,8 +14,9 @@ mod sphere_points;
 pub mod testing;
 mod unique_colors;
 
+use super::cube_choices::NamedView;
 use super::{PanelContext, widgets};
-use crate::app::{Edit, ViewCommand};
+use crate::app::{Edit, State, ViewCommand};
 use crate::gpu::{Batch, Line, Orbit, Projector, Scene, pick};
 use crate::gui::outline::{Outline, combine_by_keys};
 use crate::raster::{Mask, RegionId};
@@ -73,6 +74,18 @@ impl CubePanel {
     /// frame the cube anew.
     pub fn set_camera(&mut self, camera: Orbit) {
         self.camera_controller.set_orbit(camera);
+    }
+
+    /// Moves the camera to a named view; false for a view of a plane while no plane is selected.
+    pub fn go_to_view(&mut self, state: &State, view: NamedView) -> bool {
+        let plane = Plane::of(state);
+        self.camera_controller.go_to_view(view, plane, self.size);
+        plane.is_some() || !view.is_of_plane()
+    }
+
+    /// Switches between perspective and orthographic projection.
+    pub fn toggle_projection(&mut self) {
+        self.camera_controller.toggle_projection();
     }
 
     /// A new panel with the same camera, for exporting the view.

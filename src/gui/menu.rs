@@ -3,7 +3,8 @@
 #[cfg(test)]
 pub mod testing;
 
-use super::action::{Action, DebugAction, ViewStep};
+use super::action::{Action, CubeAction, DebugAction, ViewStep};
+use super::cube_choices::{COLORINGS, NamedView};
 use super::dock::Dock;
 use super::menu_keys::{MenuKeys, submenu};
 use super::move_cursor::selected_goal;
@@ -13,10 +14,10 @@ use super::typed_path::unique_names;
 use super::widgets::capitalized;
 use super::{PanelContext, status};
 use crate::app::{JobCommand, StepUnit, Switching};
-use crate::params::{Method, Preset};
+use crate::params::{Method, Params, Preset};
 use crate::photo::{EncodingChoice, FULL_SCALE_COUNTS, ReadOptions};
 use crate::truth::sample::{SAMPLES, THREE_LAMPS};
-use crate::view::{ArrangementKind, ElsewhereKind, Origin, Theme};
+use crate::view::{ArrangementKind, ColorSpace, ElsewhereKind, Origin, Theme};
 use egui::{Button, Checkbox, RadioButton, Response, Ui, Widget};
 
 /// A way to read the photograph's file, which the menu offers.
@@ -251,10 +252,31 @@ fn view(ui: &mut Ui, cx: &mut PanelContext, dock: &mut Dock) {
     for kind in ArrangementKind::ALL {
         choice(ui, cx, kind.name(), Action::Arrange(kind), [kind == now, open]).on_hover_text(kind.meaning());
     }
+    submenu(ui, "Color space settings", |ui| color_space(ui, cx));
     ui.separator();
     for (theme, name) in THEMES {
         choice(ui, cx, name, Action::UseTheme(theme), [cx.state.view.theme == theme, true]);
     }
+}
+
+/// The submenu of colorings, spaces and named views of the color space view.
+fn color_space(ui: &mut Ui, cx: &mut PanelContext) {
+    let (cube, open) = (&cx.state.view.cube, cx.state.picture.is_some());
+    for (color_by, name, tip) in COLORINGS {
+        let text = format!("Color by {}", name.to_lowercase());
+        let action = Action::Cube(CubeAction::ColorBy(color_by));
+        choice(ui, cx, &text, action, [cube.color_by == color_by, open]).on_hover_text(tip);
+    }
+    ui.separator();
+    for space in ColorSpace::ALL {
+        let action = Action::Cube(CubeAction::Space(space));
+        choice(ui, cx, space.name(), action, [cube.space == space, open]).on_hover_text(space.meaning());
+    }
+    ui.separator();
+    for (view, _, name, tip) in NamedView::ALL {
+        item(ui, cx, name, Action::Cube(CubeAction::View(view)), open).on_hover_text(tip);
+    }
+    item(ui, cx, "Perspective or not", Action::Cube(CubeAction::Perspective), open);
 }
 
 /// The menu that moves the debugger's cursor.
@@ -303,6 +325,9 @@ fn analyze(ui: &mut Ui, cx: &mut PanelContext) {
             item(ui, cx, preset.title(), Action::Preset(preset), true).on_hover_text(tip);
         }
     });
+    let changed = cx.state.document.params != Params::of(method);
+    item(ui, cx, "Reset parameters", Action::ResetParameters, changed)
+        .on_hover_text("Every parameter and switch to this method's default.");
     item(ui, cx, "Load parameters\u{2026}", Action::LoadParameters, true);
     item(ui, cx, "Save parameters\u{2026}", Action::SaveParameters, true);
     ui.separator();

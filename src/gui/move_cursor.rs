@@ -26,6 +26,11 @@ pub fn move_cursor(action: DebugAction, cx: &mut PanelContext) {
             };
             DebugCommand::RunTo(goal, direction)
         }
+        DebugAction::Next(kind) => DebugCommand::RunTo(Goal::Kind(kind), Forward),
+        DebugAction::Loop => {
+            let looped = !state.view.debug.looped;
+            DebugCommand::Settings(DebugSettings { looped, ..state.view.debug.clone() })
+        }
         DebugAction::Record => {
             let open = !state.view.debug.open;
             DebugCommand::Settings(DebugSettings { open, ..state.view.debug.clone() })

@@ -4,6 +4,8 @@ mod by_hand;
 mod columns;
 mod phoenix;
 
+pub use by_hand::{toggle_ambient, toggle_light, toggle_second_lamp};
+
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
 use crate::app::{Edit, Gesture};

@@ -119,8 +119,8 @@ const GENERAL: &[Shortcut] = &[
     key_with_command("Window", Key::P, Action::Palette, "All commands by name"),
     key_alone("Window", Key::F10, Action::Menus, "The menus; Alt and a first letter opens one"),
     key_alone("Window", Key::T, Action::Theme, "Light or dark theme"),
-    key_alone("Window", Key::Questionmark, Action::Help, "This list"),
-    key_alone("Window", Key::F1, Action::Help, "This list"),
+    key_alone("Window", Key::Questionmark, Action::Help, "The list of keys and of the pointer"),
+    key_alone("Window", Key::F1, Action::Help, "The list of keys and of the pointer"),
 ];
 
 /// A window of this width has room for four columns of keys, points.

@@ -1,12 +1,13 @@
 //! The row of controls above the color space: coloring, space, tools, shapes to show, named views.
 
-use super::camera_controller::{CameraController, NamedView, Plane};
+use super::camera_controller::{CameraController, Plane};
 use crate::app::ViewCommand;
 use crate::gpu::Projection;
 use crate::gui::PanelContext;
+use crate::gui::cube_choices::{COLORINGS, CUBE_BOXES, NEEDS_PLANE, NamedView};
 use crate::gui::icons::{self, Icon};
 use crate::gui::widgets::clickable;
-use crate::view::{ColorBy, ColorSpace, CubeSettings, Tool};
+use crate::view::{ColorSpace, CubeSettings, Tool};
 use egui::containers::menu::{MenuButton, MenuConfig};
 use egui::{Button, ComboBox, PopupCloseBehavior, Slider, Ui, WidgetInfo};
 
@@ -77,20 +78,10 @@ fn open_menu(text: &str) -> MenuButton<'_> {
 
 /// Shows the choice of the coloring.
 fn color_by(ui: &mut Ui, settings: &mut CubeSettings) {
-    const CHOICES: [(ColorBy, &str, &str); 4] = [
-        (ColorBy::Own, "Own color", "Each point in the color that it stands for."),
-        (ColorBy::Region, "Region", "In the color of the region that most of its pixels are in."),
-        (
-            ColorBy::Class,
-            "Class",
-            "By the class of most of its pixels' windows: point, line, plane or volume (section 5.2.1).",
-        ),
-        (ColorBy::Density, "Density", "By how many pixels have it, on a logarithmic scale."),
-    ];
     let current =
-        CHOICES.iter().find(|(choice, ..)| *choice == settings.color_by).map_or("", |(_, name, _)| name);
+        COLORINGS.iter().find(|(choice, ..)| *choice == settings.color_by).map_or("", |(_, name, _)| name);
     combo(ui, "Color by", current, 58.0, |ui| {
-        for (choice, name, tip) in CHOICES {
+        for (choice, name, tip) in COLORINGS {
             ui.selectable_value(&mut settings.color_by, choice, name).on_hover_text(tip);
         }
     });
@@ -150,41 +141,9 @@ fn tools(ui: &mut Ui, cx: &PanelContext, settings: &mut CubeSettings, narrow: bo
 
 /// Shows the boxes of the shapes and of the points' appearance.
 fn shape_checkboxes(ui: &mut Ui, settings: &mut CubeSettings) {
-    let mut row = |on: &mut bool, name: &str, tip: &str| {
-        ui.checkbox(on, name).on_hover_text(tip);
-    };
-    row(
-        &mut settings.show_cylinder,
-        "Cylinder and dark sphere",
-        "The colors that the linear hypothesis claims, from where it is bright enough (section 5.3.2).",
-    );
-    row(&mut settings.show_slice, "Slice", "The colors that the planar hypothesis claims (section 5.4.2).");
-    row(
-        &mut settings.show_lines,
-        "Matte and highlight line",
-        "The skewed T: both lines, where they meet, and the brightest matte point (section 3.1).",
-    );
-    row(
-        &mut settings.show_illuminant,
-        "Illuminant",
-        "The light's color as a line through black (section 5.4).",
-    );
-    row(
-        &mut settings.show_ellipsoid,
-        "Ellipsoid of a window",
-        "Two standard deviations around the mean of the window selected or hovered (section 5.2.1).",
-    );
-    row(&mut settings.ghost_rest, "Ghost the rest", "What is not selected or marked fades, but stays.");
-    row(
-        &mut settings.size_by_count,
-        "Size by count",
-        "Points grow with the logarithm of their number of pixels.",
-    );
-    row(
-        &mut settings.full_detail,
-        "Every color at rest",
-        "Each color that occurs instead of 64 \u{d7} 64 \u{d7} 64 bins, when the camera rests.",
-    );
+    for shown in CUBE_BOXES {
+        ui.checkbox((shown.slot)(settings), shown.name).on_hover_text(shown.tip);
+    }
     point_sliders(ui, settings);
 }
 
@@ -225,12 +184,9 @@ fn point_sliders(ui: &mut Ui, settings: &mut CubeSettings) {
 /// Shows the named views and the choice of the projection.
 fn view_menu(ui: &mut Ui, camera_controller: &mut CameraController, plane: Option<Plane>, size: [f32; 2]) {
     for (named_view, key, name, tip) in NamedView::ALL {
-        let of_plane = matches!(named_view, NamedView::FaceOn | NamedView::EdgeOn);
         let button = Button::new(name).shortcut_text(key.name());
-        let response = ui.add_enabled(!of_plane || plane.is_some(), button);
-        let response = response
-            .on_hover_text(tip)
-            .on_disabled_hover_text("Select a region that has a dichromatic plane, in the RGB space.");
+        let response = ui.add_enabled(!named_view.is_of_plane() || plane.is_some(), button);
+        let response = response.on_hover_text(tip).on_disabled_hover_text(NEEDS_PLANE);
         if response.clicked() {
             camera_controller.go_to_view(named_view, plane, size);
         }

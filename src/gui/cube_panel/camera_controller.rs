@@ -2,7 +2,8 @@
 
 use crate::app::State;
 use crate::gpu::shapes::cube_edges;
-use crate::gpu::{Orbit, Preset, Projection};
+use crate::gpu::{Orbit, Projection};
+use crate::gui::cube_choices::NamedView;
 use crate::gui::keyboard_focus::is_keyboard_owned;
 use crate::view::ColorSpace;
 use egui::{Event, Key, PointerButton, Rect, Response, Ui};
@@ -16,55 +17,6 @@ const KEY_STEP_PT: f32 = 18.0;
 const KEY_ZOOM: f32 = 1.15;
 /// Scroll distance that zooms by the factor e, points.
 const SCROLL_PT: f32 = 260.0;
-
-/// The views that a menu offers.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum NamedView {
-    /// Along a named direction.
-    Along(Preset),
-    /// Onto the selected region's dichromatic plane.
-    FaceOn,
-    /// Along the selected region's dichromatic plane.
-    EdgeOn,
-}
-
-impl NamedView {
-    /// All views with key, name and tooltip.
-    pub const ALL: [(Self, Key, &'static str, &'static str); 7] = [
-        (Self::Along(Preset::Home), Key::Home, "Home", "The whole cube from the front, blue up."),
-        (
-            Self::Along(Preset::Red),
-            Key::X,
-            "Along red",
-            "Along the red axis towards black: green against blue.",
-        ),
-        (Self::Along(Preset::Green), Key::Y, "Along green", "Along the green axis: red against blue."),
-        (
-            Self::Along(Preset::Blue),
-            Key::U,
-            "Along blue",
-            "Along the blue axis towards black: red against green.",
-        ),
-        (
-            Self::Along(Preset::Gray),
-            Key::D,
-            "Along the gray diagonal",
-            "From white to black: hue and saturation without brightness.",
-        ),
-        (
-            Self::FaceOn,
-            Key::S,
-            "Face-on to the plane",
-            "The selected region's dichromatic plane from the front: the skewed T of figure 2.",
-        ),
-        (
-            Self::EdgeOn,
-            Key::E,
-            "Edge-on to the plane",
-            "Along the selected region's dichromatic plane: how thin its slice is, as in figure 10.",
-        ),
-    ];
-}
 
 /// A dichromatic plane in the RGB cube.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -160,7 +112,12 @@ impl CameraController {
 
     /// Moves and scales the space to the middle of the view, as large as the margins allow.
     fn frame(&mut self, size: [f32; 2]) {
-        (self.framed_size, self.moved_by_user) = (Some(size), false);
+        self.moved_by_user = false;
+        // A view that was not shown yet has no size, and is framed when it is shown.
+        self.framed_size = size.iter().all(|&length| length > 0.0).then_some(size);
+        if self.framed_size.is_none() {
+            return;
+        }
         self.orbit.fit(size[0] / size[1].max(1.0));
         let middle = size.map(|length| 0.5 * length);
         // A moved space has a slightly different perspective, so the step is repeated.

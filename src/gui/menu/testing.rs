@@ -1,6 +1,8 @@
 //! The rows of the menus, for the test that compares them with the command palette.
 
-use super::{analyze, decisions, edit, file, help, item, open_photographs, read_as, recent, samples, view};
+use super::{
+    analyze, color_space, decisions, edit, file, help, item, open_photographs, read_as, recent, samples, view,
+};
 use crate::app::State;
 use crate::gui::PanelContext;
 use crate::gui::action::Action;
@@ -30,6 +32,7 @@ pub fn shown_rows(state: &State) -> (Vec<Action>, Vec<String>) {
         open_photographs(ui, &mut cx);
         edit(ui, &mut cx);
         view(ui, &mut cx, &mut dock);
+        color_space(ui, &mut cx);
         analyze(ui, &mut cx);
         for preset in Preset::ALL {
             item(ui, &mut cx, preset.title(), Action::Preset(preset), true);

@@ -68,7 +68,7 @@ fn illuminant(ui: &mut Ui, cx: &mut PanelContext) {
         let tip =
             "Keep this light, and the second lamp where one was found; or let the light be found again.";
         if pin.on_hover_text(tip).clicked() {
-            pin_found_lamps(cx, if given.is_some() { None } else { found });
+            toggle_light(cx);
         }
     });
     if edited.changed {
@@ -91,6 +91,27 @@ fn typed_numbers(setting: IlluminantSetting) -> Option<[f64; 3]> {
         IlluminantSetting::Given(bands) if bands.iter().all(|&band| band <= 1.0) => Some(bands),
         _ => setting.direction(),
     }
+}
+
+/// Lets the light be found, where it is given; otherwise keeps the light that was found, and the second lamp with it.
+pub fn toggle_light(cx: &mut PanelContext) {
+    let given = cx.state.document.params.illuminant.direction();
+    let found =
+        cx.state.newest_run().and_then(|shown| shown.analysis.illuminant).map(|light| light.direction);
+    pin_found_lamps(cx, if given.is_some() { None } else { found });
+}
+
+/// Lets a second lamp be sought, where one is given; otherwise keeps the second lamp that was found.
+pub fn toggle_second_lamp(cx: &mut PanelContext) {
+    let given = cx.state.document.params.second_illuminant.direction();
+    let found = found_second_lamp(cx);
+    cx.send(Edit::PinSecondIlluminant(if given.is_some() { None } else { found }, None));
+}
+
+/// Lets the ambient light be found, or takes none where it is found.
+pub fn toggle_ambient(cx: &mut PanelContext) {
+    let is_auto = cx.state.document.params.ambient == AmbientSetting::Auto;
+    cx.send(Edit::SetAmbient(if is_auto { AmbientSetting::Off } else { AmbientSetting::Auto }, None));
 }
 
 /// Gives the light `direction`, or lets it be found; with a given light the second lamp that was found is given too, in one step of
@@ -139,7 +160,7 @@ fn second_lamp(ui: &mut Ui, cx: &mut PanelContext) {
                     egui::WidgetInfo::selected(role, true, given.is_some(), "pin second lamp")
                 });
                 if pin.on_hover_text("Keep this lamp, or let a second lamp be sought again.").clicked() {
-                    cx.send(Edit::PinSecondIlluminant(if given.is_some() { None } else { found }, None));
+                    toggle_second_lamp(cx);
                 }
             })
         })
@@ -174,8 +195,7 @@ fn ambient(ui: &mut Ui, cx: &mut PanelContext) {
         });
         let why = found.map_or("", |ambient| ambient_reason(ambient.verdict));
         if button.on_hover_text(format!("Found in the picture, or off. {why}")).clicked() {
-            let next = if auto { AmbientSetting::Off } else { AmbientSetting::Auto };
-            cx.send(Edit::SetAmbient(next, None));
+            toggle_ambient(cx);
         }
     });
     if edited.changed {

@@ -1,12 +1,12 @@
 //! Tests of the command palette, the context menus, and of a layout that does not move while the debugger's cursor does.
 
 use crate::window::{
-    Window, answer, apply, at, choose, click, inside, item, marked, open_sample, press, region, says, state,
-    tiny, tiny_window, window, zoom_in,
+    Fixture, Window, answer, apply, at, choose, click, inside, item, marked, notice, open_sample, press,
+    region, says, state, tiny, tiny_window, window, with_gpu, zoom_in,
 };
 use dichroscope::app::{Command, DebugCommand, Edit};
 use dichroscope::truth::sample;
-use dichroscope::view::{Arrangement, ArrangementKind, Item, Layer, Theme};
+use dichroscope::view::{Arrangement, ArrangementKind, ColorBy, ColorSpace, Item, Layer, Theme};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, PointerButton, Pos2};
 use egui_kittest::kittest::Queryable;
@@ -172,4 +172,55 @@ fn a_file_that_cannot_be_read_leaves_the_dialog_as_it_was() {
     answer(&mut window, &tiny());
     window.run_steps(3);
     assert!(window.query_by_role(Role::TextInput).is_none());
+}
+
+/// Does the first command that has these letters.
+fn by_palette(window: &mut Window, letters: &str) {
+    press(window, Modifiers::COMMAND, Key::P);
+    type_text(window, letters);
+    press(window, Modifiers::NONE, Key::Enter);
+    window.run_steps(3);
+}
+
+#[test]
+fn the_color_space_is_colored_turned_and_reset_from_the_palette_and_the_menu() {
+    let Some(mut window) = with_gpu(egui::vec2(1440.0, 900.0), Fixture::Tiny) else { return };
+    for (letters, color_by) in
+        [("color space: color region", ColorBy::Region), ("color space: color density", ColorBy::Density)]
+    {
+        by_palette(&mut window, letters);
+        assert_eq!(state(&window).view.cube.color_by, color_by);
+    }
+    choose(&mut window, "View", "Color space settings");
+    click(&mut window, Role::RadioButton, "Color by class");
+    assert_eq!(state(&window).view.cube.color_by, ColorBy::Class);
+    by_palette(&mut window, "ghost");
+    assert!(!state(&window).view.cube.ghost_rest);
+    by_palette(&mut window, "show hsv");
+    assert_eq!(state(&window).view.cube.space, ColorSpace::Hsv);
+    by_palette(&mut window, "show rgb");
+    let home = state(&window).view.camera.clone();
+    by_palette(&mut window, "along red");
+    assert_ne!(state(&window).view.camera, home);
+    by_palette(&mut window, "color space reset");
+    assert_eq!(state(&window).view.camera, home);
+    by_palette(&mut window, "face-on");
+    assert_eq!(state(&window).view.camera, home, "no region is selected");
+    assert!(notice(&window).contains("Select a region that has a dichromatic plane"));
+}
+
+#[test]
+fn the_parameters_are_reset_from_the_palette_and_the_menu() {
+    let mut window = tiny_window();
+    let defaults = state(&window).document.params;
+    for by_menu in [false, true] {
+        by_palette(&mut window, "ambient found");
+        assert_ne!(state(&window).document.params, defaults);
+        if by_menu {
+            choose(&mut window, "Analyze", "Reset parameters");
+        } else {
+            by_palette(&mut window, "reset parameters");
+        }
+        assert_eq!(state(&window).document.params, defaults);
+    }
 }

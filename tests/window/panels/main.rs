@@ -30,6 +30,7 @@ mod photographs;
 mod pictures;
 mod plane_panel;
 mod preview;
+mod reach;
 mod regions;
 mod sizes;
 mod sliders;
