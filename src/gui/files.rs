@@ -6,11 +6,13 @@ use super::dialog::Dialog;
 use super::export_form::ExportForm;
 use super::proposed_path::{proposed_layer_path, proposed_path, proposed_pixels_path};
 use super::system_dialog::{Answer, SystemDialog, Wanted};
-use super::typed_path::{typed_path, unique_names};
+use super::typed_path::{file_name_span, typed_path, unique_names};
 use super::view_export::ViewExport;
 use crate::app::{Export, ExportKind, JobCommand, Notice, Severity, State, ViewCommand, is_workspace};
 use crate::truth::sample::{SAMPLES, THREE_LAMPS};
 use crate::view::{ElsewhereKind, Layer, Origin};
+use egui::text::{CCursor, CCursorRange};
+use egui::text_edit::TextEditState;
 use egui::{Key, Modifiers, RichText, Ui};
 use std::path::{Path, PathBuf};
 
@@ -22,7 +24,8 @@ pub struct Dialogs {
     export: ExportForm,
     view_export: Option<ViewExport>,
     system_dialog: SystemDialog,
-    focus: bool,
+    /// Whether the field takes the focus in the next frame.
+    focus: Option<Focus>,
     /// Whether the dialog was opened after the last frame.
     is_new: bool,
     /// The widget that had the focus before the dialog opened, and has it again afterwards.
@@ -34,6 +37,15 @@ pub struct Dialogs {
     /// The work that was confirmed and is under way. The dialog stays open until the work has ended, so that an error leaves
     /// dialog and text as they are.
     waiting: Option<Waiting>,
+}
+
+/// What is selected in the field that takes the focus.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Focus {
+    /// The name of the file: what is typed replaces a proposed name.
+    Name,
+    /// What was selected before.
+    AsBefore,
 }
 
 /// The work that an open dialog waits for.
@@ -62,7 +74,8 @@ impl Waiting {
 impl Dialogs {
     /// Opens a dialog.
     pub fn open(&mut self, dialog: Dialog) {
-        (self.dialog, self.focus, self.export.options.force) = (Some(dialog), true, false);
+        (self.dialog, self.export.options.force) = (Some(dialog), false);
+        self.focus = Some(Focus::Name);
         self.waiting = None;
         (self.export.options.layer, self.export.options.region) = (None, None);
         self.problem.clear();
@@ -175,7 +188,7 @@ impl Dialogs {
         if self.export.show(ui, cx) {
             self.problem.clear();
             self.path = proposed_path(self.export.kind, cx).display().to_string();
-            self.focus = true;
+            self.focus = Some(Focus::Name);
         }
     }
 
@@ -191,8 +204,11 @@ impl Dialogs {
             if response.changed() {
                 self.problem.clear();
             }
-            if std::mem::take(&mut self.focus) {
+            if let Some(focus) = self.focus.take() {
                 response.request_focus();
+                if focus == Focus::Name {
+                    select_name(ui, response.id, &self.path);
+                }
             }
             confirmed |= response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
             let browse = ui.add_enabled(!self.system_dialog.is_open(), egui::Button::new("Browse\u{2026}"));
@@ -252,7 +268,7 @@ impl Dialogs {
 
     /// Says in the dialog what failed. Everything that was entered stays, so that it can be corrected.
     fn fail(&mut self, problem: String) {
-        (self.problem, self.focus, self.waiting) = (problem, true, None);
+        (self.problem, self.focus, self.waiting) = (problem, Some(Focus::AsBefore), None);
     }
 
     /// Takes a view that was drawn: it is written, or the dialog says why it was not drawn. Where the dialog was closed meanwhile, a
@@ -337,7 +353,7 @@ impl Dialogs {
     /// Takes the path that was chosen in the system's dialog.
     fn take_chosen_path(&mut self, ui: &Ui) {
         let Some(answer) = self.system_dialog.take_answer(ui.ctx()) else { return };
-        self.focus = true;
+        self.focus = Some(Focus::Name);
         match answer {
             Answer::Chosen(path) => self.path = path.display().to_string(),
             Answer::NotShown => {
@@ -348,6 +364,14 @@ impl Dialogs {
         }
         ui.ctx().request_repaint();
     }
+}
+
+/// Selects the name of the file in a field that holds a path.
+fn select_name(ui: &Ui, field: egui::Id, path: &str) {
+    let mut state = TextEditState::load(ui.ctx(), field).unwrap_or_default();
+    let [first, last] = file_name_span(path).map(CCursor::new);
+    state.cursor.set_char_range(Some(CCursorRange::two(first, last)));
+    state.store(ui.ctx(), field);
 }
 
 /// Shows what a file of another program is to hold.

@@ -94,6 +94,15 @@ pub fn unique_names(paths: &[PathBuf]) -> Vec<String> {
         .collect()
 }
 
+/// First and last place, in characters, of the name of the file in a path, without the extension.
+pub fn file_name_span(path: &str) -> [usize; 2] {
+    let first = path.rfind(std::path::is_separator).map_or(0, |separator| separator + 1);
+    let name = &path[first..];
+    // A name that begins with a dot has no extension there.
+    let stem = name.rfind('.').filter(|&dot| dot > 0).unwrap_or(name.len());
+    [first, first + stem].map(|bytes| path[..bytes].chars().count())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -137,5 +146,21 @@ mod tests {
     fn equal_names_are_followed_by_their_folders() {
         let paths: Vec<PathBuf> = ["/x/a.png", "/y/a.png", "/y/b.png"].map(PathBuf::from).to_vec();
         assert_eq!(unique_names(&paths), ["a.png \u{2013} /x", "a.png \u{2013} /y", "b.png"]);
+    }
+
+    #[test]
+    fn the_name_of_a_file_is_between_the_last_separator_and_the_last_dot() {
+        for (path, selected) in [
+            ("/h\u{fc}te/cups-matte.png", "cups-matte"),
+            ("/cups/cups-result", "cups-result"),
+            ("parameters.toml", "parameters"),
+            ("/cups/.hidden", ".hidden"),
+            ("/cups/a.b.tif", "a.b"),
+            ("", ""),
+        ] {
+            let [first, last] = file_name_span(path);
+            let found: String = path.chars().skip(first).take(last - first).collect();
+            assert_eq!(found, selected, "{path}");
+        }
     }
 }

@@ -10,7 +10,7 @@ use dichroscope::params::Setting;
 use dichroscope::truth::sample;
 use dichroscope::view::{Layer, Separator, regions_text};
 use egui::accesskit::Role;
-use egui::{Key, Modifiers};
+use egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use std::fs;
 use std::path::Path;
@@ -123,6 +123,21 @@ fn an_export_that_fails_leaves_the_dialog_as_it_was_and_another_path_succeeds() 
         answer(&mut window, &folder.path().join(name));
         assert_eq!(typed(&window), None, "{entry}");
         assert!(folder.path().join(name).is_file(), "{entry}");
+    }
+}
+
+#[test]
+fn what_is_typed_replaces_the_name_that_the_dialog_proposes() {
+    let mut window = tiny_window();
+    press(&mut window, Modifiers::COMMAND, Key::E);
+    for (ware, typed_name, name) in
+        [("Photograph without highlights", "mine", "mine.png"), ("Regions table", "ours", "ours.csv")]
+    {
+        click(&mut window, Role::RadioButton, ware);
+        window.run_steps(2);
+        window.event(Event::Text(typed_name.to_owned()));
+        window.run_steps(3);
+        assert_eq!(typed(&window), Some(tiny().with_file_name(name).display().to_string()));
     }
 }
 
