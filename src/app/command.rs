@@ -38,8 +38,8 @@ pub enum Edit {
     Redo,
     /// Go to an entry of the history, by its index from the earliest on: several steps of undo or redo at once.
     GoTo(usize),
-    /// End the gesture: the next change is a step of its own.
-    EndGesture,
+    /// End this gesture, if it is the one under way: the next change is a step of its own.
+    EndGesture(Gesture),
 
     /// Set one parameter.
     SetParameter(Parameter, Setting, Option<Gesture>),

@@ -57,9 +57,11 @@ impl History {
         self.past.push(before.clone());
     }
 
-    /// Ends the gesture: the next change is a step of its own.
-    pub fn end_gesture(&mut self) {
-        self.open = None;
+    /// Ends a gesture, if it is the one under way: the next change is a step of its own.
+    pub fn end_gesture(&mut self, gesture: Gesture) {
+        if self.open == Some(gesture) {
+            self.open = None;
+        }
     }
 
     /// Whether further changes of a gesture would belong to the last step.

@@ -7,7 +7,7 @@ use super::cube_choices::{NEEDS_PLANE, NamedView};
 use super::dock::{Dock, Panels, TAB_BAR_PT};
 use super::dropped_files::{open_dropped, open_pasted};
 use super::files::Dialogs;
-use super::keyboard_focus::KeyboardFocus;
+use super::keyboard_focus::{KeyboardFocus, end_editing_on_press};
 use super::menu_keys::MenuKeys;
 use super::pane::Pane;
 use super::panel_context::LastHover;
@@ -89,6 +89,7 @@ impl App {
         state: State,
     ) -> std::io::Result<Self> {
         theme::load_fonts(ctx);
+        end_editing_on_press(ctx);
         let repaint_context = Arc::new(Mutex::new(ctx.clone()));
         let shared = Arc::clone(&repaint_context);
         let wake = move || shared.lock().unwrap_or_else(PoisonError::into_inner).request_repaint();
@@ -99,6 +100,7 @@ impl App {
     /// Moves to another window after the graphics device was lost: everything stays but what was uploaded to the device.
     pub fn move_to(&mut self, ctx: &egui::Context, gpu: Option<egui_wgpu::RenderState>) {
         theme::load_fonts(ctx);
+        end_editing_on_press(ctx);
         *self.repaint_context.lock().unwrap_or_else(PoisonError::into_inner) = ctx.clone();
         self.content.has_further_fonts = false;
         let cube = self.content.panels.cube.clone_with_camera();

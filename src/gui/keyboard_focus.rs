@@ -1,11 +1,19 @@
 //! The ring around the widget that has the focus of the keyboard.
 
 use super::theme::ThemeColors;
-use egui::{Context, FocusDirection, Id, Key, LayerId, Order, Popup, Response, Stroke, StrokeKind};
+use egui::{
+    Context, FocusDirection, Id, Key, LayerId, Order, Popup, Response, Stroke, StrokeKind, SurrenderFocusOn,
+};
 
 /// Whether keys belong to a text that is being edited or to an open menu, and to no view.
 pub fn is_keyboard_owned(ctx: &Context) -> bool {
     ctx.text_edit_focused() || Popup::is_any_open(ctx)
+}
+
+/// Lets a press beside a field end the editing of its text. Otherwise only a click does, and after a slider was dragged Ctrl+Z would be for
+/// the field.
+pub fn end_editing_on_press(ctx: &Context) {
+    ctx.options_mut(|options| options.input_options.surrender_focus_on = SurrenderFocusOn::Presses);
 }
 
 /// The focus, where it came by a key. A focus that came by the pointer needs no ring: the pointer shows the place.

@@ -143,8 +143,10 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, parameter: Parameter) {
         }
         in_photograph_pixels(ui, cx, parameter, value);
         let is_released = slider.drag_stopped() || slider.clicked() || slider.lost_focus();
-        if is_released || field.drag_stopped() || field.lost_focus() {
-            cx.send(Edit::EndGesture);
+        // A press on the slider takes the focus from the field, and begins a gesture.
+        let is_left = field.drag_stopped() || field.lost_focus() && !slider.is_pointer_button_down_on();
+        if is_released || is_left {
+            cx.send(Edit::EndGesture(gesture));
         }
     });
 }

@@ -22,8 +22,8 @@ pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
             let other = state.history.go_to(entry, &state.document);
             restore_document(state, other)
         }
-        Edit::EndGesture => {
-            state.history.end_gesture();
+        Edit::EndGesture(gesture) => {
+            state.history.end_gesture(gesture);
             Vec::new()
         }
         Edit::SetParameter(parameter, setting, gesture) => {

@@ -86,7 +86,10 @@ fn a_drag_is_one_step() {
     for value in [3.0, 3.5, 4.0] {
         application.apply(set_sigma(value));
     }
-    application.apply(Edit::EndGesture);
+    application.apply(Edit::EndGesture(Gesture::Brush));
+    application.apply(set_sigma(4.5));
+    application.apply(set_sigma(4.0));
+    application.apply(Edit::EndGesture(Gesture::Parameter(Parameter::CameraNoise)));
     application.apply(set_sigma(5.0));
     assert!(application.state().is_current());
     application.apply(Edit::Undo);

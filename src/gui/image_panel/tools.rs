@@ -214,7 +214,7 @@ impl ToolState {
                 send_mark(cx, outline(picture_size(place), &as_arrays(&path)), modifiers);
             }
             PendingGesture::Lasso(_) => clear_marks(cx, modifiers),
-            PendingGesture::Brush(_) => cx.send(Edit::EndGesture),
+            PendingGesture::Brush(_) => cx.send(Edit::EndGesture(Gesture::Brush)),
             _ => {}
         }
     }

@@ -75,7 +75,7 @@ fn illuminant(ui: &mut Ui, cx: &mut PanelContext) {
         cx.send(Edit::PinIlluminant(Some(direction), Some(Gesture::Illuminant)));
     }
     if edited.released {
-        cx.send(Edit::EndGesture);
+        cx.send(Edit::EndGesture(Gesture::Illuminant));
     }
 }
 
@@ -122,7 +122,7 @@ fn pin_found_lamps(cx: &mut PanelContext, direction: Option<[f64; 3]>) {
     if cx.state.document.params.second_illuminant == IlluminantSetting::Auto && second.is_some() {
         cx.send(Edit::PinSecondIlluminant(second, Some(Gesture::Illuminant)));
     }
-    cx.send(Edit::EndGesture);
+    cx.send(Edit::EndGesture(Gesture::Illuminant));
 }
 
 /// The second lamp of the newest run, unit.
@@ -171,7 +171,7 @@ fn second_lamp(ui: &mut Ui, cx: &mut PanelContext) {
         cx.send(Edit::PinSecondIlluminant(Some(direction), Some(Gesture::SecondIlluminant)));
     }
     if edited.released {
-        cx.send(Edit::EndGesture);
+        cx.send(Edit::EndGesture(Gesture::SecondIlluminant));
     }
 }
 
@@ -202,7 +202,7 @@ fn ambient(ui: &mut Ui, cx: &mut PanelContext) {
         cx.send(Edit::SetAmbient(AmbientSetting::Given(counts), Some(Gesture::Ambient)));
     }
     if edited.released {
-        cx.send(Edit::EndGesture);
+        cx.send(Edit::EndGesture(Gesture::Ambient));
     }
 }
 

@@ -4,7 +4,7 @@ use crate::window::{
     Window, apply, choose, click, double_click, drag, named, press, says, shown, sigma, state, tiny,
     tiny_window, undo,
 };
-use dichroscope::app::{Edit, ExportKind, JobCommand};
+use dichroscope::app::{ExportKind, JobCommand};
 use dichroscope::gui::Pane;
 use dichroscope::params::{AmbientSetting, Method, Parameter, Params, Preset, Setting};
 use egui::accesskit::Role;
@@ -74,6 +74,25 @@ fn a_value_is_typed_and_one_out_of_range_goes_as_far_as_it_can() {
     assert_eq!(sigma(&window), Setting::Value(4.5));
     undo(&mut window);
     assert_eq!(sigma(&window), Params::default().camera_noise);
+}
+
+#[test]
+fn a_slider_that_is_dragged_ends_the_editing_of_a_field_and_is_undone_by_its_key() {
+    let mut window = tiny_window();
+    let before = state(&window).document.params;
+    click(&mut window, Role::SpinButton, "illuminant red");
+    let rail = named(&window, Role::Slider, "camera noise \u{3c3}0").rect();
+    let points: Vec<_> = (0..6).map(|k| rail.center() + egui::vec2(8.0 * k as f32, 0.0)).collect();
+    drag(&mut window, &points, Modifiers::NONE);
+    assert_ne!(sigma(&window), before.camera_noise);
+    undo(&mut window);
+    assert_eq!(state(&window).document.params, before, "one drag is one step");
+
+    click(&mut window, Role::SpinButton, "camera_noise");
+    drag(&mut window, &points, Modifiers::NONE);
+    assert_ne!(sigma(&window), before.camera_noise);
+    undo(&mut window);
+    assert_eq!(state(&window).document.params, before, "also with the focus in its own field");
 }
 
 #[test]
@@ -190,7 +209,6 @@ fn methods_and_switches_are_chosen_and_reset() {
     let mut window = tiny_window();
     let switch = |window: &Window| state(window).document.params.refine.edge_body;
     let before = switch(&window);
-    apply(&mut window, Edit::EndGesture);
     window.state_mut().show_alone(Some(Pane::Parameters));
     window.run_steps(2);
     click(&mut window, Role::CheckBox, "edge body");
