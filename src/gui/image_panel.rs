@@ -23,7 +23,7 @@ use super::verdict_strip::StepSentence;
 use super::{PanelContext, context_menu, start, verdict_strip, widgets};
 use crate::app::{DebugSettings, ViewCommand};
 use crate::raster::PixelIndex;
-use crate::view::{Arrangement, ImageSettings, Item, Layer};
+use crate::view::{Arrangement, ArrangementKind, ImageSettings, Item, Layer};
 use cursor::InstantCache;
 use egui::accesskit::Role;
 use egui::{
@@ -50,8 +50,8 @@ pub struct ImagePanel {
     textures: TextureCache,
     instant_cache: InstantCache,
     tool_state: ToolState,
-    /// The layer of the last frame, if the instant at the cursor was shown in place of the layer.
-    hidden_layer: Option<Layer>,
+    /// The layer of the last frame, and whether it was wiped with another, if the instant at the cursor was shown in its place.
+    hidden: Option<(Layer, bool)>,
     /// The placement of the picture in the last frame; none before the first frame.
     place: Option<Placement>,
     /// The toolbar's height in the last frame, points.
@@ -94,10 +94,11 @@ impl ImagePanel {
         let mut settings = before.clone();
         let mut debug = cx.state.view.debug.clone();
         let (palette, state) = (cx.palette, cx.state);
-        let hidden_layer = state.followed().map(|_| settings.layer);
-        let layer_before = std::mem::replace(&mut self.hidden_layer, hidden_layer);
-        if layer_before.zip(hidden_layer).is_some_and(|(before, now)| before != now) {
-            // A key or the menu has chosen a layer of the result.
+        let is_wiped = settings.arrangement.kind() == ArrangementKind::Wipe;
+        let hidden = state.followed().map(|_| (settings.layer, is_wiped));
+        let hidden_before = std::mem::replace(&mut self.hidden, hidden);
+        if hidden_before.zip(hidden).is_some_and(|(before, now)| before.0 != now.0 || now.1 && !before.1) {
+            // A key or the menu has chosen a layer of the result, or a wipe between two.
             debug.follow = false;
         }
         let bar = Frame::new().fill(palette.panel);

@@ -46,8 +46,11 @@ pub fn row(
         if layer_menu(ui, state, "Layer", &mut settings.layer, followed, actions) {
             debug.follow = false;
         }
-        arrangement_buttons(ui, palette, settings);
-        if settings.arrangement != Arrangement::Single {
+        let kind = shown_arrangement(settings, followed);
+        if arrangement_buttons(ui, palette, settings, kind) && followed {
+            debug.follow = false;
+        }
+        if kind != ArrangementKind::Single {
             layer_menu(ui, state, "Second layer", &mut settings.other, false, actions);
         }
         fill_button(ui, palette, settings);
@@ -111,17 +114,34 @@ fn layer_menu(
     chosen
 }
 
-/// Shows the buttons for one layer, a wipe, and two views.
-fn arrangement_buttons(ui: &mut Ui, palette: &ThemeColors, settings: &mut ImageSettings) {
+/// How one or two layers share the view: the instant at the debugger's cursor, where it is `followed`, is not wiped.
+fn shown_arrangement(settings: &ImageSettings, followed: bool) -> ArrangementKind {
+    match settings.arrangement.kind() {
+        ArrangementKind::Wipe if followed => ArrangementKind::Single,
+        kind => kind,
+    }
+}
+
+/// Shows the buttons for one layer, a wipe, and two views, of which `now` is shown. Returns whether the wipe was chosen, which is one of two layers
+/// of the result.
+fn arrangement_buttons(
+    ui: &mut Ui,
+    palette: &ThemeColors,
+    settings: &mut ImageSettings,
+    now: ArrangementKind,
+) -> bool {
+    let mut is_wipe_chosen = false;
     ui.scope(|ui| {
         ui.spacing_mut().item_spacing.x = 0.0;
         for kind in ArrangementKind::ALL {
-            let (icon, on) = (ToolbarIcon::Arrangement(kind), settings.arrangement.kind() == kind);
-            if icons::toggle(ui, palette, icon, on, kind.name(), kind.meaning()).clicked() {
+            let icon = ToolbarIcon::Arrangement(kind);
+            if icons::toggle(ui, palette, icon, now == kind, kind.name(), kind.meaning()).clicked() {
                 settings.arrange(kind);
+                is_wipe_chosen = kind == ArrangementKind::Wipe;
             }
         }
     });
+    is_wipe_chosen
 }
 
 /// Shows the button that switches between fills and outlines.

@@ -1,17 +1,18 @@
 //! Tests of panels at the debugger's cursor: image, plane and tables show the state at the cursor.
 
 use crate::window::{
-    Fixture, Window, apply, at, click, inside, item, named, says, shown, state, tiny_window,
+    Fixture, Window, apply, at, choose, click, inside, item, named, says, shown, state, tiny_window,
     with_software_driver, zoom_in,
 };
 use dichroscope::app::{Command, DebugCommand};
 use dichroscope::gui::Pane;
 use dichroscope::raster::HypothesisId;
 use dichroscope::trace::{Block, Event, Stage, Topic, Trace};
-use dichroscope::view::Item;
+use dichroscope::view::{ArrangementKind, Item};
 use egui::accesskit::Role;
 use egui::vec2;
 use egui_kittest::SnapshotOptions;
+use egui_kittest::kittest::Queryable;
 use std::sync::Arc;
 
 fn trace(window: &Window) -> Arc<Trace> {
@@ -34,6 +35,27 @@ fn accepted(window: &Window) -> usize {
         .events()
         .find(|(_, event)| matches!(event, Event::CandidateTested(test) if test.verdict.accepted()));
     passed.expect("the scene has a highlight").0 + 1
+}
+
+#[test]
+fn the_instant_at_the_cursor_is_not_wiped_and_a_wipe_turns_back_to_the_result() {
+    let wipe = ArrangementKind::Wipe.name();
+    let mut window = tiny_window();
+    choose(&mut window, "View", wipe);
+    window.get_by_role_and_label(Role::ComboBox, "Second layer");
+    seek(&mut window, 12_000);
+    assert!(says(&window, "at step"));
+    assert!(window.query_by_role_and_label(Role::ComboBox, "Second layer").is_none(), "nothing is wiped");
+    click(&mut window, Role::Button, wipe);
+    assert!(!says(&window, "at step") && !state(&window).view.debug.follow);
+    window.get_by_role_and_label(Role::ComboBox, "Second layer");
+
+    click(&mut window, Role::Button, "Follow");
+    click(&mut window, Role::Button, ArrangementKind::Single.name());
+    assert!(says(&window, "at step"), "one layer is what the instant is");
+    choose(&mut window, "View", wipe);
+    window.run_steps(2);
+    assert!(!says(&window, "at step") && !state(&window).view.debug.follow);
 }
 
 #[test]
