@@ -77,7 +77,10 @@ fn parts(cx: &PanelContext) -> Vec<StatusPart> {
         let text = regions_and_coverage(regions.len(), misfits, shown.coverage);
         let tip = "Regions, those that the model does not fit, and the share of the lit pixels in regions.";
         parts.push(StatusPart { text, tip: tip.to_owned(), is_bad: misfits > 0 });
-        parts.push(quiet(duration_text(shown.total_ms()), "Time that the analysis took."));
+        // Until the last stage is there, the sum would be the time of some of them.
+        if shown.stale_from.is_none() {
+            parts.push(quiet(duration_text(shown.total_ms()), "Time that the analysis took."));
+        }
     }
     parts
 }

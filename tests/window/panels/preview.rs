@@ -3,7 +3,7 @@
 use crate::window::{
     SIZE, Window, apply, at, click, named, says, shown, size, state, tiny, with_state, words, zoom_in,
 };
-use dichroscope::analysis::{Analysis, Observer, RunWarning, Session};
+use dichroscope::analysis::{Analysis, Observer, RunWarning, Session, Stage};
 use dichroscope::app::{Application, Debugger, Edit, Executor, JobCommand, Preview, State, ViewCommand};
 use dichroscope::params::{Parameter, Params, Setting};
 use dichroscope::raster::{Blocks, PixelIndex, Raster};
@@ -69,6 +69,25 @@ fn panels_that_show_the_result_before_say_so() {
     assert!(says(&window, before));
     finish(&mut window);
     assert!(!says(&window, before), "the whole result is there");
+}
+
+#[test]
+fn the_time_of_an_analysis_is_told_when_all_of_its_stages_are_there() {
+    let time = "7.7 s";
+    for (stale_from, is_told) in [(Some(Stage::Clipping), false), (None, true)] {
+        let mut state_before = state_with_preview();
+        state_before.preview = None;
+        let before = state_before.newest.take().unwrap();
+        let (picture, analysis) = (Arc::clone(&before.picture), before.analysis.clone());
+        let colors = before.region_colors.clone();
+        let mut newest = ResultSnapshot::new(picture, before.params, analysis, colors);
+        (newest.generation, newest.stale_from) = (state_before.generation, stale_from);
+        newest.took_ms[0] = Some(7654.3);
+        state_before.newest = Some(Arc::new(newest));
+        let Some(mut window) = with_state(SIZE, state_before) else { return };
+        window.run_steps(2);
+        assert_eq!(says(&window, time), is_told, "{stale_from:?}");
+    }
 }
 
 #[test]
