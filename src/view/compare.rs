@@ -128,6 +128,10 @@ pub fn setting_changes(before: &Params, after: &Params) -> Vec<SettingChange> {
     let mut changes = Vec::new();
     let mut add = |name, pinned: String, newest: String| {
         if pinned != newest {
+            let (short_pinned, short_newest) = (shortened(&pinned), shortened(&newest));
+            let is_told_apart = short_pinned != short_newest;
+            let (pinned, newest) =
+                if is_told_apart { (short_pinned, short_newest) } else { (pinned, newest) };
             changes.push(SettingChange { name, pinned, newest });
         }
     };
@@ -159,6 +163,19 @@ pub fn setting_changes(before: &Params, after: &Params) -> Vec<SettingChange> {
         }
     }
     changes
+}
+
+/// A setting whose numbers have four digits, or all digits before the point: a light that was found has sixteen.
+fn shortened(setting: &str) -> String {
+    let number = |text: &str| match text.parse::<f64>() {
+        Ok(value) if value.is_finite() && value != 0.0 => {
+            let decimals = (3 - value.abs().log10().floor() as i32).clamp(0, 12);
+            let scale = 10_f64.powi(decimals);
+            ((value * scale).round() / scale).to_string()
+        }
+        _ => text.to_owned(),
+    };
+    setting.split(',').map(number).collect::<Vec<_>>().join(", ")
 }
 
 fn settings(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Vec<SettingChange> {
@@ -309,7 +326,7 @@ fn body_change(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> BodyChange {
 mod tests {
     use super::*;
     use crate::intrinsic::Intrinsic;
-    use crate::params::{Params, Setting};
+    use crate::params::{IlluminantSetting, Params, Setting};
     use crate::segment::Illuminant;
     use crate::view::testing::{divided, gray};
     use std::sync::Arc;
@@ -396,5 +413,21 @@ mod tests {
         };
         let found = compare(&lit([1.0, 0.0, 0.0]), &lit([0.5f64.sqrt(), 0.5f64.sqrt(), 0.0])).unwrap();
         assert!((found.illuminant_deg.unwrap() - 45.0).abs() < 1e-9);
+    }
+
+    #[test]
+    fn settings_have_as_many_digits_as_can_be_read_unless_these_are_equal() {
+        let given = |light| Params { illuminant: IlluminantSetting::Given(light), ..Params::default() };
+        let found = given([0.583, 0.569_466_109_448_656_4, 0.000_123_456_789]);
+        let told = |before: &Params, after: &Params| {
+            let [change] = &setting_changes(before, after)[..] else { panic!("one setting") };
+            format!("{}: {} \u{2192} {}", change.name, change.pinned, change.newest)
+        };
+        let text = told(&found, &Params::default());
+        assert_eq!(text, "illuminant: 0.583, 0.5695, 0.0001235 \u{2192} auto");
+        let nearly = given([0.583, 0.569_466_1, 0.000_123_456_789]);
+        assert!(told(&found, &nearly).contains("0.5694661094486564"), "they differ");
+        let area = |pixels| Params { min_area: Setting::Value(pixels), ..Params::default() };
+        assert_eq!(told(&area(12345.0), &area(-0.5)), "min_area: 12345 \u{2192} -0.5");
     }
 }

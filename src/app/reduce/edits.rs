@@ -7,8 +7,20 @@ use crate::raster::{Mask, Raster};
 use crate::view::Selection;
 use std::sync::Arc;
 
+/// The notice about parameters of the photograph before; it goes when all parameters have their defaults.
+pub(super) const PARAMETERS_STAY: &str =
+    "parameters that were changed for the photograph before stay in force; Reset takes the defaults";
+
 /// Changes the document.
 pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
+    let effects = change(state, command);
+    if state.document.params == Params::of(state.document.params.method) {
+        state.notices.retain(|notice| notice.text != PARAMETERS_STAY);
+    }
+    effects
+}
+
+fn change(state: &mut State, command: Edit) -> Vec<Effect> {
     match command {
         Edit::Undo => {
             let earlier = state.history.undo(&state.document);

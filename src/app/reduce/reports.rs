@@ -1,7 +1,7 @@
 //! The reducer of the reports of workers.
 
 use super::debugger::take_trace;
-use super::edits::{analyze, edit_params};
+use super::edits::{PARAMETERS_STAY, analyze, edit_params};
 use super::elsewhere::{lack_elsewhere, take_elsewhere, warning_of, with_unused_truth};
 use super::photographs::keep_open;
 use super::questions::take_progress;
@@ -248,9 +248,7 @@ fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: &ElsewhereP
         restore_workspace(state, *workspace);
         state.workspace_path = Some(path);
     } else if had_picture && state.document.params != Params::of(state.document.params.method) {
-        let text =
-            "parameters that were changed for the photograph before stay in force; Reset takes the defaults";
-        state.notify(Severity::Warning, text.to_owned());
+        state.notify(Severity::Warning, PARAMETERS_STAY.to_owned());
     }
     for kind in ElsewhereKind::ALL {
         if elsewhere.get(kind).or(saved.get(kind)).is_none() {

@@ -73,6 +73,8 @@ fn parameters_that_stay_in_force_are_named() {
     open_sample(&mut window, sample::SAMPLES[1].name);
     window.run_steps(3);
     assert!(says(&window, "stay in force"));
+    choose(&mut window, "Analyze", "Reset parameters");
+    assert!(!says(&window, "stay in force"), "none is changed any more");
 }
 
 #[test]
