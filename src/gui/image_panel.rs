@@ -222,10 +222,13 @@ impl ImagePanel {
             for (view, slot) in [(left, Slot::Layer), (right, Slot::SecondLayer)] {
                 let place = Placement::new(view, size, settings);
                 let other_size = other_size::other_size(cx).filter(|_| slot == Slot::SecondLayer);
-                let pixel = match other_size {
+                let mut show = |ui: &mut Ui| match other_size {
                     Some(other) => self.show_other_size(ui, cx, settings, place.of_size(other), size),
                     None => self.show_view(ui, cx, settings, place, slot),
                 };
+                // What lies over a picture, as a note with its button, is there once in each view.
+                let is_second = slot == Slot::SecondLayer;
+                let pixel = if is_second { ui.push_id("second view", show).inner } else { show(ui) };
                 hovered_pixel = pixel.or(hovered_pixel);
             }
         } else {

@@ -7,7 +7,9 @@ use dichroscope::analysis::{Analysis, Observer, RunWarning, Session, Stage};
 use dichroscope::app::{Application, Debugger, Edit, Executor, JobCommand, Preview, State, ViewCommand};
 use dichroscope::params::{Parameter, Params, Setting};
 use dichroscope::raster::{Blocks, PixelIndex, Raster};
-use dichroscope::view::{ImageSettings, Item, Layer, Origin, Picture, ResultSnapshot, Selection, paint};
+use dichroscope::view::{
+    Arrangement, ImageSettings, Item, Layer, Origin, Picture, ResultSnapshot, Selection, paint,
+};
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
 use std::sync::Arc;
@@ -102,6 +104,16 @@ fn a_note_over_the_picture_can_be_dismissed() {
     newest.generation = state_before.generation;
     state_before.newest = Some(Arc::new(newest));
     let Some(mut window) = with_state(SIZE, state_before) else { return };
+    window.run_steps(2);
+    let image = state(&window).view.image.clone();
+    apply(
+        &mut window,
+        ViewCommand::Image(ImageSettings { arrangement: Arrangement::SideBySide, ..image.clone() }),
+    );
+    window.run_steps(2);
+    let buttons = window.query_all_by_role_and_label(Role::Button, "Dismiss the note").count();
+    assert_eq!(buttons, 2, "each view has a button of its own");
+    apply(&mut window, ViewCommand::Image(image));
     window.run_steps(2);
     click(&mut window, Role::Button, "Dismiss the note");
     assert!(window.query_by_role_and_label(Role::Button, "Dismiss the note").is_none());
