@@ -83,13 +83,7 @@ impl Images {
         plans: &[RegionPlan],
         members: &Members,
     ) {
-        let distorted = Distorted {
-            pixels: input.pixels,
-            masks: input.masks,
-            labels,
-            clip_thresholds: input.clip_thresholds(origin),
-            sigma: input.sigma() as f32,
-        };
+        let distorted = Distorted { input, labels, clip_thresholds: input.clip_thresholds(origin) };
         let restored: Vec<Vec<RestoredPixel>> = plans
             .par_iter()
             .enumerate()
@@ -125,16 +119,18 @@ fn restored(
 ) -> Vec<RestoredPixel> {
     let waiting: Vec<u32> = pixels.iter().filter(|&pixel| input.masks.distorted(pixel as usize)).collect();
     let rule = &plan.splitter.rule;
-    let is_needed = input.refine.restore_prior && rule.transform().is_some();
-    let priors = if is_needed {
-        distorted.priors(&waiting, |color| rule.amounts(color).components.body)
-    } else {
-        vec![f32::NAN; waiting.len()]
+    let start_body = |pixel: usize| plan.start_bodies[plan.branch_near(input, pixel as u32)];
+    let amounts = match rule.transform().filter(|_| input.refine.restore_prior) {
+        Some(transform) => {
+            let undistorted = |color| rule.amounts(color).components.body;
+            distorted.body_amounts(&waiting, transform, undistorted, start_body)
+        }
+        None => vec![f32::NAN; waiting.len()],
     };
     waiting
         .into_iter()
-        .zip(priors)
-        .map(|(pixel, prior)| {
+        .zip(amounts)
+        .map(|(pixel, amount)| {
             if let Some(split) = believed_split(input, plan, pixel as usize) {
                 let SplitPixel { body, surface, noise, kind } = split;
                 return RestoredPixel { pixel, body, surface, noise, kind };
@@ -144,13 +140,11 @@ fn restored(
                 let body = input.pixels[pixel as usize];
                 return RestoredPixel { pixel, body, surface: [0.0; 3], noise, kind: PixelKind::Lost };
             };
-            let start_body = plan.start_bodies[plan.branch_near(input, pixel)];
             let restored = if input.refine.restore_prior {
-                let prior = if prior.is_nan() { start_body } else { prior };
-                distorted.most_probable(pixel as usize, transform, prior)
+                distorted.with_body(pixel as usize, transform, amount)
             } else {
                 let test = plan.splitter.highlight_test.as_ref();
-                distorted.smallest_band(pixel as usize, transform, test, start_body)
+                distorted.smallest_band(pixel as usize, transform, test, start_body(pixel as usize))
             };
             let [body, surface] = rule.colors(restored.components);
             let kind = if restored.lost { PixelKind::Lost } else { PixelKind::Restored };

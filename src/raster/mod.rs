@@ -21,5 +21,5 @@ pub use grid::{LabelMap, Mask, Raster, UNASSIGNED};
 pub use ids::{HypothesisId, PixelIndex, RegionId};
 pub(crate) use morphology::{dilate, erode};
 pub(crate) use pull_push::pull_push;
-pub(crate) use relaxation::relax;
+pub(crate) use relaxation::{Target, relax, relax_towards};
 pub(crate) use roi::Roi;

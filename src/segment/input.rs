@@ -5,6 +5,9 @@ use crate::params::{Readings, Refine, UsedParams};
 use crate::photo::{CodingError, LinearImage, Masks, ShotNoise};
 use crate::raster::Raster;
 
+/// Standard deviation of the error of an interpolated band, as a share of the second difference of the band.
+const INTERPOLATION_SHARE: f32 = 0.25;
+
 /// Pixels that a person has marked as one region.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct MarkedArea {
@@ -164,6 +167,38 @@ impl<'a> AnalysisInput<'a> {
     /// Whether the values have an error of lossy compression, which is alike in neighboring pixels.
     pub fn has_extended_coding(&self) -> bool {
         self.coding.is_some_and(CodingError::is_extended)
+    }
+
+    /// Whether the missing bands of each pixel were interpolated, and the values not compressed after that.
+    pub fn is_only_interpolated(&self) -> bool {
+        self.extended && !self.has_extended_coding()
+    }
+
+    /// Standard deviation of the error that demosaicing, or the smaller resolution of chroma in a compressed file, makes in a band of a pixel,
+    /// counts; 0 in other pictures. Where a band is linear from pixel to pixel its interpolation has no error: the error is a share of
+    /// the second difference.
+    pub fn interpolation_sigma(&self, pixel: usize) -> f32 {
+        if self.extended || self.has_extended_coding() {
+            // The largest of the squares of six second differences of noise is about twice their mean, 6 σ².
+            let of_noise = 12.0 * self.sigma().powi(2) as f32;
+            INTERPOLATION_SHARE * (self.largest_second_difference2(pixel) - of_noise).max(0.0).sqrt()
+        } else {
+            0.0
+        }
+    }
+
+    /// The square of the largest second difference of a band along row and column, counts²; 0 across the border of the picture.
+    fn largest_second_difference2(&self, pixel: usize) -> f32 {
+        let (width, height) = (self.pixels.width(), self.pixels.height());
+        let (x, y) = (pixel % width, pixel / width);
+        let along = |step: usize, is_inside: bool| {
+            if !is_inside {
+                return 0.0;
+            }
+            let [before, here, after] = [pixel - step, pixel, pixel + step].map(|pixel| self.pixels[pixel]);
+            (0..3).map(|band| (before[band] + after[band] - 2.0 * here[band]).powi(2)).fold(0.0, f32::max)
+        };
+        along(1, x > 0 && x + 1 < width).max(along(width, y > 0 && y + 1 < height))
     }
 
     /// Factor of the light's interval: pixels whose errors are alike say less than as many independent ones. Measured on 72
