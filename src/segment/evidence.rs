@@ -92,12 +92,16 @@ pub fn plane_constraint(
     const POOR_FIT: f64 = 2.0;
     let axes = plane.coordinates();
     let (radius, sigma) = (input.used.radius_counts() as f32, input.sigma());
-    let points: Vec<(f64, f64)> = pixels
+    let points: Vec<HighlightPoint> = pixels
         .filter(|&pixel| input.masks.usable(pixel as usize))
-        .map(|pixel| axes.of(input.pixels[pixel as usize]))
-        .filter(|p| p.offset > LEAST_OFFSET_RADII * radius && is_near_plane(p))
-        .filter(|p| f64::from(p.along) > LEAST_ALONG_SHARE * matte_length)
-        .map(|p| (f64::from(p.offset), f64::from(p.height)))
+        .map(|pixel| (pixel as usize, axes.of(input.pixels[pixel as usize])))
+        .filter(|(_, p)| p.offset > LEAST_OFFSET_RADII * radius && is_near_plane(p))
+        .filter(|(_, p)| f64::from(p.along) > LEAST_ALONG_SHARE * matte_length)
+        .map(|(pixel, p)| HighlightPoint {
+            offset: f64::from(p.offset),
+            height: f64::from(p.height),
+            variance_share: relative_variance(input, pixel),
+        })
         .collect();
     let fit = robust_slope(&points, sigma)?;
     if fit.weight < MIN_PIXELS {
@@ -115,15 +119,37 @@ pub fn plane_constraint(
     })
 }
 
+/// A pixel off the matte line, by the coordinates of its color in the dichromatic plane.
+struct HighlightPoint {
+    /// Distance from the matte line in the plane, counts.
+    offset: f64,
+    /// Distance from the plane, with sign, counts.
+    height: f64,
+    /// Variance of the height, in units of the noise's variance.
+    variance_share: f64,
+}
+
+/// Variance of a band of a pixel, in units of the noise's variance: more than 1 where the band was interpolated across a narrow highlight.
+///
+/// Only in demosaiced photographs. In compressed ones the fine structure of a highlight is as exact as the block around it: with
+/// this variance plain objects gain .1 dB there, and prints lose .9 dB (25 rendered prints; demosaiced they gain .6 dB, plain objects .2 dB).
+fn relative_variance(input: &AnalysisInput, pixel: usize) -> f64 {
+    if input.is_only_interpolated() {
+        1.0 + (f64::from(input.interpolation_sigma(pixel)) / input.sigma()).powi(2)
+    } else {
+        1.0
+    }
+}
+
 /// A line through the origin, fitted to points of a dichromatic plane (offset, height).
 struct Slope {
     /// Height per offset.
     tangent: f64,
-    /// Σ w·offset².
+    /// Σ w·offset², w Tukey's weight by the relative variance of the height.
     squares: f64,
-    /// Σ w.
+    /// Sum of Tukey's weights.
     weight: f64,
-    /// Root mean square of the weighted residuals, counts.
+    /// Root mean square of the weighted residuals, each in units of its relative standard deviation, counts.
     residual: f64,
 }
 
@@ -138,20 +164,21 @@ const SLOPE_ROUNDS: usize = 10;
 
 /// Fits height = tangent · offset with Tukey's weights, whose scale decreases from [`FIRST_SCALE_SIGMAS`] to the scale of the noise. `None` where
 /// no point has weight.
-fn robust_slope(points: &[(f64, f64)], sigma: f64) -> Option<Slope> {
+fn robust_slope(points: &[HighlightPoint], sigma: f64) -> Option<Slope> {
     let mut fit = Slope { tangent: 0.0, squares: 0.0, weight: 0.0, residual: 0.0 };
     let mut scale = FIRST_SCALE_SIGMAS * sigma;
     for _ in 0..SLOPE_ROUNDS {
         let (mut product, mut squares, mut weight_sum, mut residuals) = (0.0, 0.0, 0.0, 0.0);
-        for &(offset, height) in points {
-            let residual = height - fit.tangent * offset;
+        for &HighlightPoint { offset, height, variance_share } in points {
+            let residual = (height - fit.tangent * offset) / variance_share.sqrt();
             let u = residual / (TUNING * scale);
             if u.abs() < 1.0 {
-                let weight = (1.0 - u * u).powi(2);
+                let tukey = (1.0 - u * u).powi(2);
+                let weight = tukey / variance_share;
                 product += weight * offset * height;
                 squares += weight * offset * offset;
-                weight_sum += weight;
-                residuals += weight * residual * residual;
+                weight_sum += tukey;
+                residuals += tukey * residual * residual;
             }
         }
         if squares <= 0.0 {
