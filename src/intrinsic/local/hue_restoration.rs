@@ -155,7 +155,7 @@ fn restored_in_blob(
     if !has_hue {
         return Vec::new();
     }
-    let chromatic = harmonic(input.masks, blob, &rings, chromatic);
+    let chromatic = harmonic(input.masks.shape(), blob, &rings, chromatic);
     let restored = blob.iter().zip(chromatic).filter_map(|(&pixel, chromatic)| {
         let color = input.pixels[pixel];
         let band = only_clipped_band(color, thresholds).filter(|_| length(chromatic) > least_chroma)?;

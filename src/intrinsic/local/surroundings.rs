@@ -59,27 +59,26 @@ fn is_known(masks: &Masks, pixel: usize) -> bool {
     !masks.clipped(pixel) && masks.has_value(pixel)
 }
 
-/// The harmonic fill of a blob by the `value` of the known pixels around: colors, each the mean of its neighbors, by successive
-/// over-relaxation that begins with the mean of the two `rings` around the blob.
+/// The harmonic fill of a blob by the `value` of the pixels of its `rings`: colors, each the mean of its neighbors in the blob and in the inner ring,
+/// by successive over-relaxation that begins with the mean of both rings. `size`: columns and rows of the picture. The fill is black where the rings
+/// are empty.
 pub fn harmonic(
-    masks: &Masks,
+    size: (usize, usize),
     blob: &[usize],
     rings: &[Vec<usize>; 2],
     value: impl Fn(usize) -> [f32; 3],
 ) -> Vec<[f32; 3]> {
     let ring = || rings.iter().flatten().map(|&pixel| value(pixel));
-    let count = ring().count() as f32;
+    let count = ring().count().max(1) as f32;
     let sum = ring().fold([0.0f32; 3], |sum, color| std::array::from_fn(|band| sum[band] + color[band]));
-    let Some(roi) = Roi::around_pixels(masks.shape(), 1, blob.iter().copied()) else { return Vec::new() };
+    let Some(roi) = Roi::around_pixels(size, 1, blob.iter().copied()) else { return Vec::new() };
     let mut values = Raster::filled(roi.width, roi.height, sum.map(|sum| sum / count));
     let mut is_beside = Mask::filled(roi.width, roi.height, false);
-    for &pixel in blob {
-        masks.for_each_neighbor(pixel, |next| {
-            if let Some(place) = roi.index(next).filter(|_| is_known(masks, next)) {
-                values[place] = value(next);
-                is_beside[place] = true;
-            }
-        });
+    for &pixel in &rings[0] {
+        if let Some(place) = roi.index(pixel) {
+            values[place] = value(pixel);
+            is_beside[place] = true;
+        }
     }
     let places: Vec<usize> = blob.iter().filter_map(|&pixel| roi.index(pixel)).collect();
     relax(&mut values, &is_beside, &places, usize::MAX);
