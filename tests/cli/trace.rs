@@ -221,7 +221,7 @@ fn why_tells_of_print_and_of_a_clipped_core_where_no_region_holds() {
         &saturated_core,
         &["restored, in region", "it is filled with the body around it", "but it is clipped"],
     );
-    says(&saturated_core, &["% of the unexplained pixels in its ring of 2 px are highlight (at least 40 %)"]);
+    says(&saturated_core, &["of its ring of 2 px are highlight (at least 40 %)"]);
 }
 
 #[test]

@@ -135,16 +135,13 @@ impl Describe for RepairTried {
         let [share, least] = [ring.value, ring.limit].map(|share| percent(f64::from(share)));
         match verdict {
             RepairVerdict::Filled => format!(
-                "{blob} is filled with the body around it: {share} of the unexplained pixels in its ring of 2 px are highlight \
-                 (at least {least}), {inner:.1} \
+                "{blob} is filled with the body around it: {share} of its ring of 2 px are highlight (at least {least}), {inner:.1} \
                  counts next to it, {outer:.1} farther out"
             ),
             RepairVerdict::TooLarge => format!("{blob} is left: it is as large as a window or the sky"),
-            RepairVerdict::NoRing => {
-                format!("{blob} is left: no unclipped pixel that is unexplained lies around it")
-            }
+            RepairVerdict::NoRing => format!("{blob} is left: no ring of unclipped pixels lies around it"),
             RepairVerdict::NoHighlight => format!(
-                "{blob} is left: {share} of the unexplained pixels in its ring of 2 px are highlight, at least {least} are needed"
+                "{blob} is left: {share} of its ring of 2 px are highlight, at least {least} are needed"
             ),
             RepairVerdict::Uneven => format!(
                 "{blob} is left: the body around it varies by {} of its mean (at most {}), so that it is of several materials",

@@ -231,14 +231,11 @@ fn every_verdict_on_a_blob_is_another_sentence_with_its_figures() {
     let verdicts = [
         (
             RepairVerdict::Filled,
-            "62 % of the unexplained pixels in its ring of 2 px are highlight (at least 40 %), 40.0 counts next to it, 20.0",
+            "62 % of its ring of 2 px are highlight (at least 40 %), 40.0 counts next to it, 20.0",
         ),
         (RepairVerdict::TooLarge, "as large as a window"),
-        (RepairVerdict::NoRing, "no unclipped pixel that is unexplained"),
-        (
-            RepairVerdict::NoHighlight,
-            "62 % of the unexplained pixels in its ring of 2 px are highlight, at least 40 % are needed",
-        ),
+        (RepairVerdict::NoRing, "no ring of unclipped pixels"),
+        (RepairVerdict::NoHighlight, "62 % of its ring of 2 px are highlight, at least 40 % are needed"),
         (RepairVerdict::Uneven, "varies by 70 % of its mean (at most 50 %)"),
         (RepairVerdict::TooSmall, "5 highlight pixels lie around it, at least 6 are needed"),
         (RepairVerdict::NoRise, "does not rise towards it, 40.0 counts"),

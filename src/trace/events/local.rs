@@ -169,7 +169,7 @@ pub struct RepairTried {
     pub pixel: PixelIndex,
     /// Number of pixels.
     pub pixels: u32,
-    /// Share of the unexplained pixels in the ring of 2 px around the blob that are highlight, 0…1, and the least share at which the blob is filled.
+    /// Share of the ring of 2 px around the blob that is highlight, 0…1, and the least share at which the blob is filled.
     pub ring: Measured<f32>,
     /// Mean surface reflection of the ring's inner pixels, counts a band.
     pub inner: f32,
