@@ -2,7 +2,7 @@
 //!
 //! The paper assumes that the smallest band is undistorted, and takes the color on the matte or highlight line with that value.
 //!
-//! Refined (`restore_prior`, 22 → 31 dB on clipped pixels): a band is good when neither the pixel nor any of
+//! Refined (`restore_prior`, 20.8 → 37.6 dB on the clipped pixels of nine scenes): a band is good when neither the pixel nor any of
 //! the 8 neighbors clips there; where no band is good, the unclipped bands are used. Two good bands determine m_b and m_s, but m_b badly:
 //! the body vector often differs between these bands by a tenth, and ten times the noise is the error. Therefore m_b is
 //! found for all pixels of a blob of distorted pixels together: it is interpolated into the blob from the undistorted pixels of the region
