@@ -33,7 +33,7 @@ const AROUND_PX: f32 = 3.0;
 /// Most pixels of a blob that is filled. Larger blobs are usually windows or the sky.
 const MOST_PIXELS: usize = 40_000;
 /// Most pixels of a blob whose ring may lie in part on another object. Larger blobs are often white things: an apron, a hubcap.
-const MOST_PIXELS_IN_PART: usize = 400;
+const MOST_PIXELS_BESIDE_ANOTHER_OBJECT: usize = 400;
 /// Width of the Gaussian by which surface reflection fades out towards clipped pixels that are not filled, pixels.
 const FADE_PX: f64 = 6.0;
 /// Share of unfilled clipped pixels around a pixel over which its surface reflection fades from all to none.
@@ -188,7 +188,7 @@ impl LocalAmounts<'_> {
         };
         let share = ring_pixels().filter(|&pixel| self.is_highlight(pixel)).count() as f32 / count;
         let highlight_share = Measured::new(share, LEAST_HIGHLIGHT);
-        let may_lie_on_another_object = blob.len() <= MOST_PIXELS_IN_PART;
+        let may_lie_on_another_object = blob.len() <= MOST_PIXELS_BESIDE_ANOTHER_OBJECT;
         let of_this_object = |pixel: &usize| !may_lie_on_another_object || unexplained[*pixel];
         let spread = self.spread(input, ring_pixels().filter(of_this_object));
         let highlights = Measured::new(around.highlights as f32, LEAST_AROUND * blob.len() as f32);

@@ -175,7 +175,7 @@ pub struct RepairTried {
     pub inner: f32,
     /// Mean surface reflection of the ring's outer pixels, counts a band.
     pub outer: f32,
-    /// Standard deviation of the body reflection of the ring as a share of its mean, and the largest share at which the blob is filled.
+    /// Standard deviation of the body reflection of the ring, of a small blob of the ring's unexplained pixels, as a share of its mean, and the largest share at which the blob is filled.
     pub spread: Measured<f32>,
     /// Number of highlight pixels around the blob, and the least number at which the blob is filled.
     pub around: Measured<f32>,
