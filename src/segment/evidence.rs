@@ -206,3 +206,27 @@ pub fn branch_constraint(lies_in: &Constraint, plane: &DichromaticPlane, branch:
         reliability: lies_in.reliability,
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_of_large_variance_do_not_tilt_the_plane_of_the_others() {
+        // Twenty points on a slope of .1, and forty that color fringes put on a slope of −.02.
+        let points = |fringe_variance_share: f64| -> Vec<HighlightPoint> {
+            (1..=60)
+                .map(|i| {
+                    let offset = f64::from(i);
+                    let (slope, variance_share) =
+                        if i % 3 == 0 { (0.1, 1.0) } else { (-0.02, fringe_variance_share) };
+                    HighlightPoint { offset, height: slope * offset, variance_share }
+                })
+                .collect()
+        };
+        let tangent =
+            |fringe_variance_share| robust_slope(&points(fringe_variance_share), 1.0).unwrap().tangent;
+        assert!((tangent(400.0) - 0.1).abs() < 0.005, "{}", tangent(400.0));
+        assert!(tangent(1.0) < 0.05, "with equal variances the fringes decide: {}", tangent(1.0));
+    }
+}

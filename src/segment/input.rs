@@ -228,3 +228,25 @@ impl<'a> AnalysisInput<'a> {
         self.masks.claimable_by_color(pixel, self.refine.tail_test)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::segment::testing::Drawing;
+
+    #[test]
+    fn an_interpolated_band_has_an_error_where_it_is_not_linear_and_only_in_such_pictures() {
+        // A slope of 4 counts a pixel, and from column 5 on one of 44 counts a pixel: a second difference of 40 counts.
+        let drawing = Drawing::by_place(9, |x, _| Vec3::repeat(20.0 + 4.0 * x + 40.0 * (x - 5.0).max(0.0)));
+        let plain = drawing.input();
+        let interpolated = plain.with_coding(None, true);
+        let of = |input: &AnalysisInput, x: usize| input.interpolation_sigma(4 * 9 + x);
+        assert!(interpolated.is_only_interpolated() && !plain.is_only_interpolated());
+        for x in 0..9 {
+            assert!(of(&plain, x).abs() < f32::EPSILON, "column {x}");
+            let noise = 12.0 * interpolated.sigma().powi(2) as f32;
+            let expected = if x == 5 { 0.25 * (1600.0 - noise).sqrt() } else { 0.0 };
+            assert!((of(&interpolated, x) - expected).abs() < 1e-3, "column {x}: {}", of(&interpolated, x));
+        }
+    }
+}
