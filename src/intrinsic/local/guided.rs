@@ -91,6 +91,16 @@ impl AmountLines {
         Self { roi: map.roi, of }
     }
 
+    /// The lines that give each pixel of the window the share `kept` of its amount, 0…1.
+    pub fn faded(mut self, kept: &Raster<f32>) -> Self {
+        for (line, &share) in self.of.as_mut_slice().iter_mut().zip(kept.as_slice()) {
+            let scaled =
+                |line: AmountLine| AmountLine { slope: line.slope * share, offset: line.offset * share };
+            *line = line.map(scaled);
+        }
+        self
+    }
+
     /// The line of the pixel at `index` of the window.
     pub fn line(&self, index: usize) -> Option<AmountLine> {
         self.of.as_slice().get(index).copied().flatten()
@@ -107,6 +117,16 @@ mod tests {
         let is = |line: AmountLine, a: f32, amount: f32| (line.amount(a) - amount).abs() < 1e-6;
         assert!(is(line, 10.0, 0.0) && is(line, 40.0, 10.0) && is(line, -3.0, 0.0));
         assert!(is(AmountLine { slope: 1.0, offset: 5.0 }, 20.0, 20.0));
+    }
+
+    #[test]
+    fn faded_lines_give_each_color_the_share_that_its_pixel_keeps() {
+        let roi = Roi::around((3, 1), 0, |_| true).unwrap();
+        let line = Some(AmountLine { slope: 0.5, offset: -10.0 });
+        let lines = AmountLines { roi, of: Raster::from_vec(3, 1, vec![line, line, None]).unwrap() };
+        let faded = lines.faded(&Raster::from_vec(3, 1, vec![0.25, 0.0, 1.0]).unwrap());
+        let amount = |index: usize| faded.line(index).map(|line| line.amount(100.0));
+        assert_eq!((amount(0), amount(1), amount(2)), (Some(10.0), Some(0.0), None));
     }
 
     #[test]

@@ -7,7 +7,7 @@
 //! c the length of its chromatic part, κ the ratio a/c of body reflection, and m_s = max(a − κc, 0) the excess
 //! (`hue_ratios`, and `region_ratios` for pale regions). `hue_restoration` gives J a band that alone is clipped, `desaturation_map` measures the excess, `evidence` tells highlights from white print, `plausibility`
 //! whether the light is known well enough, `guided` makes the amounts follow the edges of the picture, and `repair`
-//! fills clipped pixels.
+//! fills clipped pixels, and `fade` leaves no edge around those that are not filled.
 //!
 //! Body reflection is the input minus the surface reflection found; inside highlights its chromaticity is taken from around, as far as errors
 //! explain the change (`chromaticity`), and body ≤ input. On a rendered scene of printed objects the body image goes from 19.6 dB (planes alone; doing nothing: 30.2 dB) to 41 dB.
@@ -15,6 +15,7 @@
 mod chromaticity;
 mod desaturation_map;
 mod evidence;
+mod fade;
 mod full_resolution;
 mod guided;
 mod hue_ratios;
@@ -144,21 +145,17 @@ fn split_unexplained<R: Recorder>(
         }
     }
     let weights = weights(&limits, map, judged, unexplained);
-    let mut amounts = map.raster(|index| weights[index] * map.points[index].surface);
-    let mut fills = Vec::new();
+    let amounts = map.raster(|index| weights[index] * map.points[index].surface);
+    let (mut fills, mut kept_shares) = (Vec::new(), None);
     if input.refine.clip_repair {
         trace_writer.repairs_began();
         let found = repair::LocalAmounts { map, weights: &weights, amounts: &amounts };
         fills = repair::fills(original, input, unexplained, &found, |tried, blob| {
             trace_writer.repair(tried, blob);
         });
-        amounts = repair::faded(input, unexplained, map, &fills, amounts);
+        kept_shares = fade::kept_shares(&repair::unfilled(input, unexplained, &map.roi, &fills));
     }
-    let lines = if input.refine.guided_amount {
-        AmountLines::guided(map, &amounts, limits.sigma)
-    } else {
-        AmountLines::constant(map, &amounts)
-    };
+    let lines = amount_lines(input, map, &amounts, kept_shares.as_ref(), limits.sigma);
     let amounts = map.raster(|index| {
         let pixel = map.roi.pixel(index);
         let line = lines.line(index).filter(|_| unexplained[pixel] && !input.masks.clipped(pixel));
@@ -172,6 +169,24 @@ fn split_unexplained<R: Recorder>(
     let filled = repair::fill(input, &fills, images, &mut confidence);
     let hues = restored.map(|_| Hues::new(map, &limits));
     Some(LocalSplit { lines, lamps: map.lamps.clone(), confidence, filled, hues, chromaticity })
+}
+
+/// The lines that give the `amounts` of the window, counts of J; each pixel keeps its share in `kept_shares`, 0…1, of them. `sigma`: standard
+/// deviation of the noise of a band, counts.
+fn amount_lines(
+    input: &AnalysisInput,
+    map: &DesaturationMap,
+    amounts: &Raster<f32>,
+    kept_shares: Option<&Raster<f32>>,
+    sigma: f32,
+) -> AmountLines {
+    let kept = kept_shares.map(|shares| map.raster(|index| amounts[index] * shares[index]));
+    let amounts = kept.as_ref().unwrap_or(amounts);
+    if !input.refine.guided_amount {
+        return AmountLines::constant(map, amounts);
+    }
+    let lines = AmountLines::guided(map, amounts, sigma);
+    kept_shares.into_iter().fold(lines, AmountLines::faded)
 }
 
 /// The share of the excess m_s of each pixel of the window that is surface reflection, 0…1; 0 for pixels that a region

@@ -7,15 +7,14 @@
 //! where an object in front of the highlight, or behind its rim, is part of the ring: of a blob of at most 400 pixels, pixels that the plane of a region explains do not
 //! count (100 rendered pictures, body at JPEG 92 .25 dB on average, at most 5.5 dB, none loses). Blobs of more
 //! than 40,000 pixels are not filled. The fill is harmonic: the smoothest that is continuous with the ring. Other
-//! clipped pixels (white paper, the sky) do not change, and the surface reflection around them fades out towards them,
-//! so that no hole is left in the middle of what may be a highlight.
+//! clipped pixels (white paper, the sky) do not change, and the surface reflection around them fades out towards them (`fade`).
 
 use super::desaturation_map::DesaturationMap;
 use super::surroundings::{Surroundings, harmonic};
 use crate::intrinsic::images::Images;
-use crate::raster::{ComponentSearch, Connectivity, Mask, PixelIndex, Raster, blur};
+use crate::raster::{ComponentSearch, Connectivity, Mask, PixelIndex, Raster, Roi};
 use crate::segment::AnalysisInput;
-use crate::trace::{Measured, PixelKind, Ramp, RepairTried, RepairVerdict};
+use crate::trace::{Measured, PixelKind, RepairTried, RepairVerdict};
 
 /// Least share of highlight pixels in the ring around a blob that is filled.
 const LEAST_HIGHLIGHT: f32 = 0.4;
@@ -34,10 +33,6 @@ const AROUND_PX: f32 = 3.0;
 const MOST_PIXELS: usize = 40_000;
 /// Most pixels of a blob whose ring may lie in part on another object. Larger blobs are often white things: an apron, a hubcap.
 const MOST_PIXELS_BESIDE_ANOTHER_OBJECT: usize = 400;
-/// Width of the Gaussian by which surface reflection fades out towards clipped pixels that are not filled, pixels.
-const FADE_PX: f64 = 6.0;
-/// Share of unfilled clipped pixels around a pixel over which its surface reflection fades from all to none.
-const FADE: Ramp = Ramp { start: 0.0, end: 0.3 };
 /// Confidence of a repaired pixel.
 pub(super) const CONFIDENCE: f32 = 0.3;
 
@@ -103,27 +98,13 @@ pub fn fills(
     fills
 }
 
-/// The amounts of a window, faded out towards the clipped pixels of the `unexplained` that are not filled.
-pub fn faded(
-    input: &AnalysisInput,
-    unexplained: &Mask,
-    map: &DesaturationMap,
-    fills: &[Fill],
-    amounts: Raster<f32>,
-) -> Raster<f32> {
-    let roi = map.roi;
-    let mut unfilled =
-        roi.raster(|pixel| [if unexplained[pixel] && input.masks.clipped(pixel) { 1.0f32 } else { 0.0 }]);
+/// The clipped pixels among the `unexplained` that are not filled, in the window `roi`.
+pub fn unfilled(input: &AnalysisInput, unexplained: &Mask, roi: &Roi, fills: &[Fill]) -> Mask {
+    let mut unfilled = roi.raster(|pixel| unexplained[pixel] && input.masks.clipped(pixel));
     for index in fills.iter().flat_map(|fill| &fill.blob).filter_map(|&pixel| roi.index(pixel)) {
-        unfilled[index] = [0.0];
+        unfilled[index] = false;
     }
-    if unfilled.as_slice().iter().all(|&[share]| share == 0.0) {
-        return amounts;
-    }
-    let near = blur(&unfilled, FADE_PX);
-    let faded = amounts.as_slice().iter().zip(near.as_slice());
-    let data = faded.map(|(amount, &[share])| amount * (1.0 - FADE.step(share))).collect();
-    Raster::from_vec(roi.width, roi.height, data).unwrap_or_default()
+    unfilled
 }
 
 /// Fills blobs with the body reflection of their rings, sets the `confidence` of their pixels, and returns these pixels.
