@@ -71,13 +71,19 @@ fn break_here(ui: &mut Ui, cx: &mut PanelContext, condition: Condition, tip: &st
     }
 }
 
+/// Whether the debugger's cursor is about what the inspector shows. The cursor is the newest result's, and a region of the pinned result is
+/// another one there.
+fn has_cursor(cx: &PanelContext) -> bool {
+    cx.state.debugger.replay.is_some() && !cx.state.shows_pinned()
+}
+
 fn of_pixel(ui: &mut Ui, cx: &mut PanelContext, pixel: PixelIndex) {
     if let Some(region) = cx.state.region_of(Item::Pixel(pixel))
         && button(ui, "Select its region", "Selects the region that the pixel is in.")
     {
         cx.send(Edit::Select(Some(Item::Region(region))));
     }
-    if cx.state.debugger.replay.is_some() {
+    if has_cursor(cx) {
         if button(ui, "Run to its next change", "Goes to the next decision about this pixel (J).") {
             cx.send(Command::Debug(DebugCommand::RunTo(Goal::Pixel(pixel), Forward)));
         }
@@ -96,7 +102,7 @@ fn of_region(ui: &mut Ui, cx: &mut PanelContext, region: RegionId) {
         cx.send(Edit::Mark(Arc::new(mask), Combine::Replace, None));
     }
     let hypothesis = cx.state.debugger.names.hypotheses_of(region).next();
-    if let Some(hypothesis) = hypothesis.filter(|_| cx.state.debugger.replay.is_some())
+    if let Some(hypothesis) = hypothesis.filter(|_| has_cursor(cx))
         && button(ui, "Run to its next change", "Goes to the next decision about this region (J).")
     {
         cx.send(Command::Debug(DebugCommand::RunTo(Goal::Hypothesis(hypothesis), Forward)));

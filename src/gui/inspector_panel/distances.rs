@@ -12,8 +12,12 @@ const DISTANCE_PT: f32 = 74.0;
 /// Height of a line, points.
 const LINE_PT: f32 = 16.0;
 
-/// Shows a line for each hypothesis; nothing where no pixel is selected or no decisions are recorded.
+/// Shows a line for each hypothesis; nothing where no pixel is selected or no decisions are recorded, or while the pinned result is shown,
+/// whose hypotheses are others.
 pub fn show(ui: &mut Ui, cx: &PanelContext) {
+    if cx.state.shows_pinned() {
+        return;
+    }
     let Some(pixel) = cx.state.watched().and_then(|found| found.pixel) else { return };
     let palette = cx.palette;
     let text = if pixel.distances.is_empty() {

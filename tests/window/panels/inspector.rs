@@ -6,7 +6,7 @@ use crate::window::{
 use dichroscope::app::{Combine, Command, DebugCommand, Edit, ViewCommand};
 use dichroscope::gui::Pane;
 use dichroscope::intrinsic::Reason;
-use dichroscope::params::Method;
+use dichroscope::params::{Method, Parameter, Setting};
 use dichroscope::raster::PixelIndex;
 use dichroscope::trace::{Event, Kind};
 use dichroscope::view::Item;
@@ -77,6 +77,17 @@ fn a_selected_pixel_has_the_values_of_the_readout_and_its_distances_from_the_hyp
     let distance = state(&window).watched().unwrap().pixel.unwrap().distances.remove(0);
     let text = format!("{:.1} / {:.1}", distance.axis[0], distance.axis[1]);
     assert!(says(&window, &text) && says(&window, "Distances from the hypotheses, counts"), "{text}");
+    apply(&mut window, ViewCommand::Pin(true));
+    apply(&mut window, Edit::SetParameter(Parameter::CameraNoise, Setting::Value(7.0), None));
+    assert!(says(&window, "Distances from the hypotheses, counts"), "of the newest result");
+    apply(&mut window, ViewCommand::ShowPinned(true));
+    window.run_steps(2);
+    for of_newest in ["Distances from the hypotheses, counts", "Run to its next change", "Break here"] {
+        assert!(
+            !says(&window, of_newest),
+            "{of_newest} is about the newest result, and the pinned one is shown"
+        );
+    }
 }
 
 #[test]
