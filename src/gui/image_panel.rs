@@ -179,7 +179,7 @@ impl ImagePanel {
         let frame = bar.inner_margin(Margin { left: 8, right: 8, top: 4, bottom: 2 });
         let panel = Panel::bottom("verdict").frame(frame).resizable(false);
         if state.debugger.stopped().is_none() {
-            let response = panel.show(ui, |ui| {
+            let shown = panel.show(ui, |ui| {
                 ui.set_min_height(VERDICT_LINE_PT);
                 if is_low {
                     // The picture comes first: what does not fit into one line is shown over the picture on demand.
@@ -187,9 +187,12 @@ impl ImagePanel {
                 } else {
                     verdict_strip::show(ui, cx, shown);
                 }
+                // The strip has the height of its contents from the next frame on.
+                if ui.min_rect().bottom() > ui.max_rect().bottom() + 0.5 {
+                    ui.ctx().request_repaint();
+                }
             });
-            // The height of a verdict that wraps is known from the next frame on.
-            let height = response.response.rect.height();
+            let height = shown.response.rect.height();
             if (height - std::mem::replace(&mut self.verdict_height_pt, height)).abs() > 0.5 {
                 ui.ctx().request_repaint();
             }

@@ -27,6 +27,29 @@ fn the_start_screen_opens_samples_and_dialogs_by_pointer_and_keyboard() {
     assert_eq!(state(&window).picture.as_ref().unwrap().origin, Origin::Sample(sample::NAME.to_owned()));
 }
 
+/// Upper edges of the verdict's clauses.
+fn clauses(window: &Window) -> Vec<f32> {
+    let links = window.root().children_recursive().filter(|node| node.accesskit_node().role() == Role::Link);
+    links.map(|link| link.rect().top()).collect()
+}
+
+#[test]
+fn a_verdict_that_needs_more_lines_has_them_without_an_input() {
+    let mut window = tiny_window();
+    window.state_mut().show_alone(Some(dichroscope::gui::Pane::Image));
+    window.set_size(egui::vec2(900.0, 600.0));
+    window.run_steps(4);
+    let one_line = clauses(&window);
+    assert!(one_line.len() > 1 && one_line.iter().all(|&top| top == one_line[0]), "{one_line:?}");
+    // As many frames as the window asks for, and then some more.
+    window.set_size(egui::vec2(330.0, 600.0));
+    window.run_ok();
+    let lines = clauses(&window);
+    window.run_steps(4);
+    assert_eq!(lines, clauses(&window), "no clause moves later, when the pointer moves");
+    assert!(lines[0] < lines[lines.len() - 1], "{lines:?}");
+}
+
 #[test]
 fn the_largest_region_is_selected_until_a_person_selects() {
     let mut window = window();
