@@ -204,11 +204,9 @@ fn fill(painter: &Painter, place: &Placement, color: Color32, inside: impl Fn(us
 /// Paints lines between pixels that are inside and pixels that are not.
 fn edges(painter: &Painter, place: &Placement, color: Color32, inside: impl Fn(usize, usize) -> bool) {
     let [columns, rows] = place.visible();
-    let stroke = Stroke::new(1.5, color);
-    let line = |a: (usize, usize), b: (usize, usize)| {
-        let on_screen = |(x, y): (usize, usize)| place.screen_from_image(pos2(x as f32, y as f32));
-        painter.line_segment([on_screen(a), on_screen(b)], stroke);
-    };
+    let on_screen = |(x, y): (usize, usize)| place.screen_from_image(pos2(x as f32, y as f32));
+    let mut lines = Vec::new();
+    let mut line = |a: (usize, usize), b: (usize, usize)| lines.push([on_screen(a), on_screen(b)]);
     for y in rows {
         for x in columns.clone() {
             if !inside(x, y) {
@@ -227,6 +225,9 @@ fn edges(painter: &Painter, place: &Placement, color: Color32, inside: impl Fn(u
                 line((x, y + 1), (x + 1, y + 1));
             }
         }
+    }
+    for stroke in [Stroke::new(3.5, Color32::from_black_alpha(140)), Stroke::new(1.5, color)] {
+        painter.extend(lines.iter().map(|&line| Shape::line_segment(line, stroke)));
     }
 }
 

@@ -8,12 +8,14 @@ use rayon::prelude::*;
 const FILL_ALPHA: u8 = 72;
 const OUTLINE: [u8; 4] = with_alpha(ACCENT, 255);
 const HOVERED: [u8; 4] = [255, 255, 255, 220];
+/// The color around an outline, which stands out from a bright object of the outline's color.
+const AROUND: [u8; 4] = [0, 0, 0, 150];
 const CLEAR: [u8; 4] = [0; 4];
 
 /// The marked pixels (a translucent fill and an outline), the selected region, window or color bin and the hovered item, at the
 /// size of the picture, as sRGB with straight alpha. None where there is nothing to draw.
 ///
-/// Outlines are one pixel wide, inside. A single pixel is too small to be drawn here: views draw a cross-hair.
+/// Outlines are one pixel wide, inside, with a dark line around. A single pixel is too small to be drawn here: views draw a cross-hair.
 pub fn marks(
     picture: &Picture,
     shown: Option<&ResultSnapshot>,
@@ -62,22 +64,15 @@ struct Canvas<'a> {
 impl Canvas<'_> {
     /// Paints a translucent fill and an outline.
     fn fill(&mut self, mask: &Mask, color: [u8; 3]) {
-        self.each(|x, y| match mask.row(y)[x] {
-            true if is_border(mask, x, y, |on| on) => Some(with_alpha(color, 255)),
-            true => Some(with_alpha(color, FILL_ALPHA)),
-            false => None,
-        });
+        let fill = Some(with_alpha(color, FILL_ALPHA));
+        self.outline(mask, |on| on, with_alpha(color, 255), fill);
     }
 
     fn item(&mut self, item: Item, color: [u8; 4]) {
         match (item, self.shown) {
             (Item::Region(region), Some(shown)) => {
-                let labels = shown.labels();
                 let region = region.get();
-                self.each(|x, y| {
-                    let inside = |label| label == region;
-                    (labels.row(y)[x] == region && is_border(labels, x, y, inside)).then_some(color)
-                });
+                self.outline(shown.labels(), |label| label == region, color, None);
             }
             (Item::Window(window), Some(shown)) => {
                 let (side_px, columns) = (shown.window_px(), shown.classes().width().max(1));
@@ -107,20 +102,39 @@ impl Canvas<'_> {
         }
     }
 
-    fn each(&mut self, color: impl Fn(usize, usize) -> Option<[u8; 4]> + Sync) {
-        let width = self.painted.width().max(1);
-        self.painted.as_mut_slice().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
-            for (x, pixel) in row.iter_mut().enumerate() {
-                if let Some(color) = color(x, y) {
-                    *pixel = color;
+    /// Paints the border of the area in which the values are inside, the dark line around the border, and what is left of the area with the
+    /// fill. A line around does not cover the outline of another area.
+    fn outline<T: Copy + Sync>(
+        &mut self,
+        values: &Raster<T>,
+        inside: impl Fn(T) -> bool + Sync,
+        line: [u8; 4],
+        fill: Option<[u8; 4]>,
+    ) {
+        let (width, height) = (self.painted.width().max(1), self.painted.height());
+        let is_inside = |row: Option<&[T]>, x: usize| row.is_some_and(|row| inside(row[x]));
+        self.painted.as_mut_slice().par_chunks_mut(width).enumerate().for_each(|(y, painted)| {
+            let here = Some(values.row(y));
+            let above = (y > 0).then(|| values.row(y - 1));
+            let below = (y + 1 < height).then(|| values.row(y + 1));
+            let rows = [here, above, below];
+            if !rows.into_iter().flatten().any(|row| row.iter().any(|&value| inside(value))) {
+                return;
+            }
+            for (x, pixel) in painted.iter_mut().enumerate() {
+                let beside = [
+                    is_inside(above, x),
+                    is_inside(below, x),
+                    x > 0 && is_inside(here, x - 1),
+                    x + 1 < width && is_inside(here, x + 1),
+                ];
+                if is_inside(here, x) {
+                    let color = if beside == [true; 4] { fill } else { Some(line) };
+                    *pixel = color.unwrap_or(*pixel);
+                } else if beside != [false; 4] && pixel[3] < 255 {
+                    *pixel = AROUND;
                 }
             }
         });
     }
-}
-
-/// Whether a pixel inside an area has a 4-neighbor outside the area, or lies at the border of the picture.
-fn is_border<T: Copy>(values: &Raster<T>, x: usize, y: usize, inside: impl Fn(T) -> bool) -> bool {
-    let out = |x: usize, y: usize| values.get(x, y).is_none_or(|&value| !inside(value));
-    out(x.wrapping_sub(1), y) || out(x + 1, y) || out(x, y.wrapping_sub(1)) || out(x, y + 1)
 }

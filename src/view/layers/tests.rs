@@ -190,10 +190,16 @@ fn marks_are_a_fill_an_outline_and_what_is_hovered() {
     );
     let mask = labels(&["1111.", "1111.", "1111.", "...1."]).map(|&label| label == 1);
     let marked = Selection { marked: Some(Arc::new(mask)), ..Selection::default() };
-    let named = [('f', [0xE8, 0xA3, 0x3D, 72]), ('o', [0xE8, 0xA3, 0x3D, 255]), ('h', [255, 255, 255, 220])];
+    let named = [
+        ('f', [0xE8, 0xA3, 0x3D, 72]),
+        ('o', [0xE8, 0xA3, 0x3D, 255]),
+        ('h', [255, 255, 255, 220]),
+        ('a', [0, 0, 0, 150]),
+    ];
     let painted =
         marks(&picture, Some(&shown), &marked, Some(Item::Region(RegionId::from_index(2 - 1)))).unwrap();
-    check(&painted, &named, &["oooo.", "offhh", "ooohh", "...oh"]);
+    // The dark line around the hovered region does not cover the outline of the marked pixels.
+    check(&painted, &named, &["ooooa", "ofahh", "ooohh", "aaaoh"]);
     let bin = Item::Bin(picture.histogram.bin_of(0).unwrap());
     check(&marks(&picture, None, &none, Some(bin)).unwrap(), &named, &["hhhhh"; 4]);
     let window = Selection { item: Some(Item::Window(0)), ..Selection::default() };
