@@ -16,6 +16,21 @@ use egui::text_edit::TextEditState;
 use egui::{Key, Modifiers, RichText, Ui};
 use std::path::{Path, PathBuf};
 
+/// Least and largest width of the field for the path, points.
+const PATH_PT: [f32; 2] = [200.0, 460.0];
+
+/// Width of what stands beside the field for the path in a dialog, points.
+const BUTTONS_PT: f32 = 180.0;
+
+/// Width of the margins in and around a dialog, points.
+const MARGINS_PT: f32 = 80.0;
+
+/// Width of the field for the path, points.
+fn path_width(ctx: &egui::Context) -> f32 {
+    let [least, most] = PATH_PT;
+    (ctx.content_rect().width() - BUTTONS_PT - MARGINS_PT).clamp(least, most)
+}
+
 /// The open dialog, and the system's file dialog that may be open beside it.
 #[derive(Default)]
 pub struct Dialogs {
@@ -80,17 +95,7 @@ impl Dialogs {
         (self.export.options.layer, self.export.options.region) = (None, None);
         self.problem.clear();
         self.is_new = true;
-        match dialog {
-            Dialog::Export
-            | Dialog::Open
-            | Dialog::LoadParameters
-            | Dialog::OpenWorkspace
-            | Dialog::OpenElsewhere(_) => {
-                self.path.clear();
-            }
-            Dialog::SaveParameters => "parameters.toml".clone_into(&mut self.path),
-            Dialog::SaveWorkspace => "workspace.dichroscope".clone_into(&mut self.path),
-        }
+        self.path.clear();
     }
 
     /// Opens the export dialog for a file of one layer.
@@ -154,10 +159,12 @@ impl Dialogs {
         let dialog = self.dialog?;
         if std::mem::take(&mut self.is_new) {
             self.focus_before = ui.memory(egui::Memory::focused);
+            self.propose_path(dialog, cx);
         }
         let mut open = true;
         let window = egui::Window::new(dialog.title()).open(&mut open).collapsible(false).resizable(false);
-        let shown = window.default_width(480.0).anchor(egui::Align2::CENTER_TOP, egui::vec2(0.0, 64.0)).show(
+        let width = path_width(ui.ctx()) + BUTTONS_PT;
+        let shown = window.default_width(width).anchor(egui::Align2::CENTER_TOP, egui::vec2(0.0, 64.0)).show(
             ui.ctx(),
             |ui| {
                 if dialog == Dialog::Export {
@@ -180,11 +187,23 @@ impl Dialogs {
         self.view_export.take()
     }
 
+    /// Proposes a path in a dialog that writes, where none was proposed when the dialog was opened.
+    fn propose_path(&mut self, dialog: Dialog, cx: &PanelContext) {
+        let kind = match dialog {
+            Dialog::Export => self.export.kind,
+            Dialog::SaveParameters => ExportKind::Parameters,
+            Dialog::SaveWorkspace => ExportKind::Workspace,
+            Dialog::Open | Dialog::LoadParameters | Dialog::OpenWorkspace | Dialog::OpenElsewhere(_) => {
+                return;
+            }
+        };
+        if self.path.is_empty() {
+            self.path = proposed_path(kind, cx).display().to_string();
+        }
+    }
+
     /// Shows the kinds of export with their options, and proposes a path for a kind that was chosen.
     fn export_form(&mut self, ui: &mut Ui, cx: &PanelContext) {
-        if self.path.is_empty() {
-            self.path = proposed_path(self.export.kind, cx).display().to_string();
-        }
         if self.export.show(ui, cx) {
             self.problem.clear();
             self.path = proposed_path(self.export.kind, cx).display().to_string();
@@ -197,7 +216,7 @@ impl Dialogs {
         let mut confirmed = std::mem::take(&mut self.is_confirmed);
         ui.horizontal(|ui| {
             let label = ui.label("Path");
-            let field = egui::TextEdit::singleline(&mut self.path).desired_width(300.0);
+            let field = egui::TextEdit::singleline(&mut self.path).desired_width(path_width(ui.ctx()));
             // The id does not depend on the rows above, which differ between kinds of export.
             let field = field.id(egui::Id::unique("path of the dialog"));
             let response = ui.add(field.hint_text("path of a file")).labelled_by(label.id);
@@ -411,7 +430,11 @@ fn problem_of(dialog: Dialog, path: &Path, state: &State) -> Option<String> {
     if path.is_file() {
         return None;
     }
-    let what = if path.is_dir() { "is a folder, not a file" } else { "there is no such file" };
+    let what = if path.is_dir() {
+        "is a folder: type the name of a file in it too, or choose one with Browse"
+    } else {
+        "there is no such file: correct the path, or choose a file with Browse"
+    };
     Some(format!("{}: {what}", path.display()))
 }
 

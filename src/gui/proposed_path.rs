@@ -7,15 +7,16 @@ use crate::raster::RegionId;
 use crate::view::Layer;
 use std::path::{Path, PathBuf};
 
-/// The proposed path of an export: beside the photograph, or in the working directory.
+/// The proposed path of an export: beside the photograph, or in the working directory. Without a photograph the name is that of the kind.
 pub fn proposed_path(kind: ExportKind, cx: &PanelContext) -> PathBuf {
     let picture = cx.state.picture.as_ref();
     let photo = picture.and_then(|picture| picture.origin.path());
     let folder = photo.and_then(Path::parent).unwrap_or(Path::new("")).to_path_buf();
-    let stem = picture.map_or_else(String::new, |picture| {
-        Path::new(&picture.origin.name()).file_stem().unwrap_or_default().to_string_lossy().into_owned()
-    });
-    let name = format!("{stem}-{}", kind.file());
+    let stem_of = |name: &str| Path::new(name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let name = picture.map_or_else(
+        || kind.file().to_owned(),
+        |picture| format!("{}-{}", stem_of(&picture.origin.name()), kind.file()),
+    );
     if kind.is_folder() || kind.file().contains('.') {
         return folder.join(name);
     }

@@ -127,6 +127,25 @@ fn an_export_that_fails_leaves_the_dialog_as_it_was_and_another_path_succeeds() 
 }
 
 #[test]
+fn every_dialog_that_writes_proposes_a_path_beside_the_photograph() {
+    let mut window = tiny_window();
+    for (menu, entry, name) in [
+        ("File", "Export", "camera8-matte.png"),
+        ("File", "Save workspace as", "camera8-workspace.dichroscope"),
+        ("Analyze", "Save parameters", "camera8-parameters.toml"),
+    ] {
+        choose(&mut window, menu, entry);
+        window.run_steps(2);
+        assert_eq!(typed(&window), Some(tiny().with_file_name(name).display().to_string()), "{entry}");
+        window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+        window.key_press(Key::Delete);
+        window.run_steps(3);
+        assert_eq!(typed(&window), Some(String::new()), "{entry}: an empty field stays empty");
+        press(&mut window, Modifiers::NONE, Key::Escape);
+    }
+}
+
+#[test]
 fn what_is_typed_replaces_the_name_that_the_dialog_proposes() {
     let mut window = tiny_window();
     press(&mut window, Modifiers::COMMAND, Key::E);
