@@ -10,6 +10,9 @@ use crate::view::{Comparison, ImageSettings, Item, Layer, RegionChange, compare}
 use egui::{Grid, RichText, ScrollArea, Ui};
 use std::sync::Arc;
 
+/// Width of a panel in which both tables stand side by side, points.
+const SIDE_BY_SIDE_PT: f32 = 640.0;
+
 /// The comparison panel.
 #[derive(Default)]
 pub struct ComparePanel {
@@ -41,16 +44,38 @@ impl ComparePanel {
             buttons(ui, cx);
             ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
                 if let Some(Some(found)) = found {
-                    ui.horizontal_top(|ui| {
-                        ui.vertical(|ui| figures(ui, cx, found));
-                        ui.add_space(16.0);
-                        ui.vertical(|ui| regions(ui, cx, found));
-                    });
+                    found_tables(ui, cx, found);
                 }
                 self.elsewhere.show(ui, cx);
             });
         });
     }
+}
+
+/// Shows what differs: scores and parameters beside the changed pixels and regions, or one below the other in a narrow panel.
+fn found_tables(ui: &mut Ui, cx: &mut PanelContext, found: &Comparison) {
+    let grid = |name| Grid::new(name).num_columns(4).spacing([14.0, 2.0]);
+    if ui.available_width() < SIDE_BY_SIDE_PT {
+        grid("scores").show(ui, |ui| scores(ui, cx, found));
+        ui.add_space(8.0);
+        regions(ui, cx, found);
+        widgets::heading(ui, cx.palette, "Parameters that are not the same");
+        grid("settings").show(ui, |ui| {
+            titles(ui, cx, &["", "A", "B"]);
+            settings(ui, cx, found);
+        });
+        return;
+    }
+    ui.horizontal_top(|ui| {
+        ui.vertical(|ui| {
+            grid("figures").show(ui, |ui| {
+                scores(ui, cx, found);
+                settings(ui, cx, found);
+            });
+        });
+        ui.add_space(16.0);
+        ui.vertical(|ui| regions(ui, cx, found));
+    });
 }
 
 /// Shows, while no result is pinned, a sentence about the panel and the button that pins a result.
@@ -66,7 +91,7 @@ fn pin_hint(ui: &mut Ui, cx: &mut PanelContext) {
 
 /// Shows the buttons for both results, and the first decision that differs.
 fn buttons(ui: &mut Ui, cx: &mut PanelContext) {
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         let pinned = cx.state.view.show_pinned;
         for (choice, name) in [(true, "A pinned"), (false, "B newest")] {
             if ui
@@ -99,7 +124,7 @@ fn buttons(ui: &mut Ui, cx: &mut PanelContext) {
 
 /// Shows the first decision in which the two analyses differ, and the button that finds that decision.
 fn decisions(ui: &mut Ui, cx: &mut PanelContext) {
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         let find = egui::Button::new("First decision that differs");
         let find = ui.add_enabled(cx.state.debugger.replay.is_some(), find).on_hover_text(
             "Go to the first step of the newest analysis at which the pinned one went another way.",
@@ -145,54 +170,63 @@ fn secondary_text(cx: &PanelContext, text: impl Into<String>) -> RichText {
     RichText::new(text).size(SMALL_PT).color(cx.palette.secondary)
 }
 
-/// Shows the table of parameters and scores that differ.
-fn figures(ui: &mut Ui, cx: &PanelContext, found: &Comparison) {
-    Grid::new("figures").num_columns(4).spacing([14.0, 2.0]).show(ui, |ui| {
-        for title in ["", "A", "B", "B \u{2212} A"] {
-            ui.label(secondary_text(cx, title));
-        }
-        ui.end_row();
-        for change in &found.settings {
-            ui.label(RichText::new(change.name.replace('_', " ")).color(cx.palette.accent));
-            ui.label(&change.pinned);
-            ui.label(&change.newest);
-            ui.end_row();
-        }
-        for figure in &found.figures {
-            let unit = if figure.unit.is_empty() { String::new() } else { format!(" ({})", figure.unit) };
-            ui.label(format!("{}{unit}", figure.name));
-            let text = |value: Option<f64>| value.map_or("\u{2013}".to_owned(), shortened);
-            ui.label(text(figure.pinned));
-            ui.label(text(figure.newest));
-            let difference =
-                figure.pinned.zip(figure.newest).map(|(a, b)| b - a).filter(|d| !is_zero(&shortened(*d)));
-            let tone = if difference.is_some() { cx.palette.accent } else { cx.palette.secondary };
-            ui.label(
-                RichText::new(difference.map_or("=".to_owned(), |d| {
+/// Shows a row with the titles of columns.
+fn titles(ui: &mut Ui, cx: &PanelContext, titles: &[&str]) {
+    for title in titles {
+        ui.label(secondary_text(cx, *title));
+    }
+    ui.end_row();
+}
+
+/// Shows a row with the titles, and one for each score.
+fn scores(ui: &mut Ui, cx: &PanelContext, found: &Comparison) {
+    titles(ui, cx, &["", "A", "B", "B \u{2212} A"]);
+    for figure in &found.figures {
+        let unit = if figure.unit.is_empty() { String::new() } else { format!(" ({})", figure.unit) };
+        ui.label(format!("{}{unit}", figure.name));
+        let text = |value: Option<f64>| value.map_or("\u{2013}".to_owned(), shortened);
+        ui.label(text(figure.pinned));
+        ui.label(text(figure.newest));
+        let difference =
+            figure.pinned.zip(figure.newest).map(|(a, b)| b - a).filter(|d| !is_zero(&shortened(*d)));
+        let tone = if difference.is_some() { cx.palette.accent } else { cx.palette.secondary };
+        ui.label(
+            RichText::new(
+                difference.map_or("=".to_owned(), |d| {
                     format!("{}{}", if d > 0.0 { "+" } else { "" }, shortened(d))
-                }))
-                .color(tone),
-            );
-            ui.end_row();
-        }
-        if let Some(angle) = found.illuminant_deg {
-            ui.label("between both lights");
-            ui.label("");
-            ui.label("");
-            ui.label(format!("{angle:.2}\u{b0}"));
-            ui.end_row();
-        }
-    });
+                }),
+            )
+            .color(tone),
+        );
+        ui.end_row();
+    }
+    if let Some(angle) = found.illuminant_deg {
+        ui.label("between both lights");
+        ui.label("");
+        ui.label("");
+        ui.label(format!("{angle:.2}\u{b0}"));
+        ui.end_row();
+    }
+}
+
+/// Shows a row for each parameter that differs. A change of the method changes several dozen of them.
+fn settings(ui: &mut Ui, cx: &PanelContext, found: &Comparison) {
+    for change in &found.settings {
+        ui.label(RichText::new(change.name.replace('_', " ")).color(cx.palette.accent));
+        ui.label(&change.pinned);
+        ui.label(&change.newest);
+        ui.end_row();
+    }
 }
 
 /// A number with three decimals, or none for whole and large numbers.
 fn shortened(value: f64) -> String {
-    if value.abs() >= 1000.0 || value.fract() == 0.0 { format!("{value:.0}") } else { format!("{value:.3}") }
+    widgets::signed(value, if value.abs() >= 1000.0 || value.fract() == 0.0 { 0 } else { 3 })
 }
 
-/// Whether a number in text is zero, with or without a sign.
+/// Whether a number in text is zero.
 fn is_zero(text: &str) -> bool {
-    text.chars().all(|letter| matches!(letter, '0' | '.' | '-'))
+    text.chars().all(|letter| matches!(letter, '0' | '.'))
 }
 
 /// Shows the numbers of changed pixels, and the regions that differ.
@@ -225,9 +259,10 @@ fn regions(ui: &mut Ui, cx: &mut PanelContext, found: &Comparison) {
             RegionChange::Lost => "lost",
             RegionChange::Changed | RegionChange::Kept => "changed",
         };
-        let pixels = region.pixels_newest as i64 - region.pixels_pinned as i64;
-        let text =
-            format!("{change_text}  A {} \u{2192} B {}  {pixels:+} px", id(region.pinned), id(region.newest));
+        let sign = if region.pixels_newest < region.pixels_pinned { "\u{2212}" } else { "+" };
+        let pixels = crate::view::grouped(region.pixels_newest.abs_diff(region.pixels_pinned));
+        let (pinned, newest) = (id(region.pinned), id(region.newest));
+        let text = format!("{change_text}  A {pinned} \u{2192} B {newest}  {sign}{pixels} px");
         let row = ui.selectable_label(false, text);
         let target = if cx.state.view.show_pinned { region.pinned } else { region.newest };
         if row.clicked()

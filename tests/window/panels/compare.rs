@@ -1,10 +1,35 @@
 //! Tests of the comparison of a pinned result with the newest one.
 
-use crate::window::{click, named, press, says, shown, state, tiny_window};
+use crate::window::{apply, click, named, press, says, shown, state, tiny_window, words};
+use dichroscope::app::{Edit, ViewCommand};
+use dichroscope::gui::Pane;
+use dichroscope::params::{Parameter, Setting};
 use dichroscope::view::Layer;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
+use egui_kittest::Node;
+use egui_kittest::kittest::NodeT as _;
 use std::sync::Arc;
+
+#[test]
+fn a_narrow_panel_shows_all_that_differs() {
+    let mut window = tiny_window();
+    apply(&mut window, ViewCommand::Pin(true));
+    apply(&mut window, Edit::SetParameter(Parameter::CameraNoise, Setting::Value(7.0), None));
+    window.state_mut().show_alone(Some(Pane::Compare));
+    for width in [800.0, 540.0, 340.0] {
+        window.set_size(egui::vec2(width, 900.0));
+        window.run_steps(4);
+        for text in ["Unpin", "B \u{2212} A", "largest change", " counts", "Regions that are not the same"] {
+            let ends = |node: &Node<'_>| words(node).is_some_and(|words| words.ends_with(text));
+            let found: Vec<_> = window.root().children_recursive().filter(ends).collect();
+            assert!(!found.is_empty(), "{text} at {width}");
+            for node in found {
+                assert!(node.rect().right() <= width, "{text} ends at {} of {width}", node.rect().right());
+            }
+        }
+    }
+}
 
 #[test]
 fn a_pinned_result_is_compared_and_swapped_by_key() {
