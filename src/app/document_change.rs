@@ -2,7 +2,7 @@
 
 use super::Document;
 use crate::raster::Mask;
-use crate::view::{Item, NamedMarks, counted, setting_changes};
+use crate::view::{Item, NamedMarks, SettingChange, counted, setting_changes};
 use std::sync::Arc;
 
 /// What changed from one document to the next; `width` is the photograph's, pixels.
@@ -10,7 +10,7 @@ pub fn document_change(before: &Document, after: &Document, width: usize) -> Str
     let mut parts = Vec::new();
     let settings = setting_changes(&before.params, &after.params);
     if settings.len() > 3 {
-        parts.push(format!("{} settings changed", settings.len()));
+        parts.push(many_settings(&settings));
     } else {
         let change = settings.into_iter();
         parts.extend(
@@ -38,6 +38,14 @@ pub fn document_change(before: &Document, after: &Document, width: usize) -> Str
     }
     parts.extend(named_change(&old.named, &new.named));
     if parts.is_empty() { "no change".to_owned() } else { parts.join("; ") }
+}
+
+/// Says of many changed settings how many there are. Where the method is one of them it is named: the others go with it.
+fn many_settings(settings: &[SettingChange]) -> String {
+    let method = settings.iter().find(|change| change.name == "method");
+    let Some(method) = method else { return format!("{} settings changed", settings.len()) };
+    let others = counted(settings.len() - 1, "other setting");
+    format!("method: {} \u{2192} {}, and {others}", method.pinned, method.newest)
 }
 
 /// What changed in the named marks; none where nothing did.
@@ -105,6 +113,9 @@ mod tests {
         );
         assert_eq!(change(&|document| document.selection.marked = Some(Arc::clone(&mask))), "1 pixel marked");
         let paper = change(&|document| document.params = crate::params::Params::paper());
-        assert!(paper.ends_with("settings changed") || paper.contains("method"), "{paper}");
+        assert!(
+            paper.starts_with("method: refined \u{2192} paper, and ") && paper.ends_with(" other settings"),
+            "{paper}"
+        );
     }
 }

@@ -92,6 +92,16 @@ pub(super) fn direction(vector: [f64; 3]) -> String {
     format!("({r:.2}, {g:.2}, {b:.2})")
 }
 
+/// A number with its sign.
+pub(super) fn signed(number: impl Into<f64>, decimals: usize) -> String {
+    typographic(&format!("{:+.decimals$}", number.into()))
+}
+
+/// A number in text with a minus sign in the place of a hyphen.
+pub(super) fn typographic(number: &str) -> String {
+    number.replace('-', "\u{2212}")
+}
+
 /// A percentage that is 100 only for all and 0 only for none.
 pub(super) fn percent(share: f64) -> String {
     format!("{:.0} %", if share < 1.0 { (share * 100.0).min(99.0) } else { 100.0 })

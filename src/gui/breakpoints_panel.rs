@@ -127,7 +127,8 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, index: usize, breakpoint: &mut Breakp
         }
         remove_button(ui, number)
     });
-    if !has_one_line {
+    let has_arguments = breakpoint.condition != Condition::HypothesisRejected;
+    if !has_one_line && has_arguments {
         ui.horizontal_wrapped(|ui| {
             ui.add_space(INDENT_PT);
             argument_controls(ui, cx, number, &mut breakpoint.condition);

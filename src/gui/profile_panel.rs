@@ -7,7 +7,7 @@ use crate::app::ViewCommand;
 use crate::raster::PixelIndex;
 use crate::view::{Item, ProfileLine, ProfileSample, Theme, Tool, profile, profile_ends};
 use chart::{Curve, ProfileChart};
-use egui::{Color32, Sense, Ui};
+use egui::{Align, Color32, Layout, Sense, Ui};
 
 /// Identity of the samples: generation of the result, and the line's ends, hundredths of a pixel.
 type SamplesKey = (u64, [[i64; 2]; 2]);
@@ -102,14 +102,16 @@ fn toolbar(ui: &mut Ui, cx: &mut PanelContext, ends: [[f32; 2]; 2], samples: &[P
             cx.send(ViewCommand::Image(image));
         }
         let [[x0, y0], [x1, y1]] = ends.map(|end| end.map(f32::floor));
-        ui.label(
-            egui::RichText::new(format!("{x0:.0}, {y0:.0} \u{2192} {x1:.0}, {y1:.0}"))
-                .color(cx.palette.secondary),
-        );
-        ui.with_layout(egui::Layout::right_to_left(egui::Align::Center), |ui| {
+        let places = format!("{x0:.0}, {y0:.0} \u{2192} {x1:.0}, {y1:.0}");
+        let places = egui::RichText::new(places).color(cx.palette.secondary);
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if ui.small_button("Copy").on_hover_text("The numbers as CSV.").clicked() {
                 ui.ctx().copy_text(crate::view::profile_csv(samples, width));
             }
+            // In a narrow panel the places are cut with dots, and whole in the tooltip.
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                ui.add(egui::Label::new(places).truncate());
+            });
         });
     });
 }

@@ -10,7 +10,8 @@ use crate::app::Edit;
 use crate::describe::sentences;
 use crate::intrinsic::{HighlightBranch, RegionReflection};
 use crate::view::{Item, ResultSnapshot};
-use egui::{Align, Button, Color32, Label, Layout, RichText, Sense, Ui};
+use egui::accesskit::Role;
+use egui::{Align, Button, Color32, Label, Layout, RichText, Sense, Ui, WidgetInfo};
 use egui_extras::{TableBuilder, TableRow};
 use table_columns::{TableColumn, count_width, fitting, widest, with_columns};
 
@@ -80,6 +81,9 @@ const CHIP_PT: f32 = 18.0;
 
 /// Least width of the column of the regions' numbers, whose heading has an arrow, points.
 const LEAST_NUMBER_PT: f32 = 26.0;
+
+/// Width of the heading of the highlight pixels with an arrow, points.
+const HIGHLIGHT_TITLE_PT: f32 = 70.0;
 
 /// Least width of the notes in a narrow panel, points: the notes are cut with dots, and whole in the tooltip.
 const NARROW_NOTES_PT: f32 = 40.0;
@@ -228,7 +232,8 @@ fn column_widths(ui: &Ui, regions: &[RegionReflection]) -> Vec<TableColumn<SortK
             SortKey::Body | SortKey::Surface if !shows_numbers(key) => CHIP_COLUMN_PT,
             SortKey::Pixels => width.max(count_width(ui, regions.iter().map(|region| region.pixels))),
             SortKey::Highlight => {
-                width.max(count_width(ui, regions.iter().map(|region| region.highlight_pixels)))
+                let title_pt = if shows_numbers(SortKey::Body) { HIGHLIGHT_TITLE_PT } else { width };
+                title_pt.max(count_width(ui, regions.iter().map(|region| region.highlight_pixels)))
             }
             SortKey::Warnings if !shows_numbers(SortKey::Body) => NARROW_NOTES_PT,
             SortKey::Warnings if !shows_numbers(SortKey::Surface) => 110.0,
@@ -372,12 +377,17 @@ fn brightest_color(direction: [f64; 3]) -> Color32 {
 /// Shows the title of a sortable column; returns whether the title was clicked. `descending` is the order of the rows
 /// if they are sorted by this column, otherwise `None`.
 fn sorted_by(ui: &mut Ui, palette: &ThemeColors, descending: Option<bool>, title: &str, tip: &str) -> bool {
-    let arrow = match descending {
-        None => "",
-        Some(false) => " \u{2191}",
-        Some(true) => " \u{2193}",
+    let arrow = descending.map(|descending| if descending { "\u{2193}" } else { "\u{2191}" });
+    // A title that is too long is cut at its end, where the arrow of a title at the right edge would be lost.
+    let shown_title = match arrow {
+        Some(arrow) if ui.layout().prefer_right_to_left() => format!("{arrow} {title}"),
+        Some(arrow) => format!("{title} {arrow}"),
+        None => title.to_owned(),
     };
     let tone = if descending.is_some() { palette.text } else { palette.secondary };
-    let text = widgets::with_subscripts(&format!("{title}{arrow}"), SMALL_PT, tone);
-    ui.add(Button::new(text).frame(false)).on_hover_text(tip).clicked()
+    let text = widgets::with_subscripts(&shown_title, SMALL_PT, tone);
+    let heading = ui.add(Button::new(text).frame(false));
+    let order = descending.map_or("", |descending| if descending { ", descending" } else { ", ascending" });
+    heading.widget_info(|| WidgetInfo::labeled(Role::Button, true, format!("{title}{order}")));
+    heading.on_hover_text(tip).clicked()
 }

@@ -114,7 +114,7 @@ pub fn number(ui: &mut Ui, palette: &ThemeColors, width: f32, value: &str, unit:
 
 /// A sentence in the middle of a panel that has nothing to show.
 pub fn placeholder(ui: &mut Ui, palette: &ThemeColors, text: &str) {
-    ui.centered_and_justified(|ui| ui.label(RichText::new(text).color(palette.secondary)));
+    placeholder_with_button(ui, palette, text, None);
 }
 
 /// A sentence in the middle of a panel that has nothing to show, over a button that changes that; returns whether the button

@@ -206,7 +206,10 @@ fn why_tells_of_a_highlight_where_no_region_holds() {
 #[test]
 fn why_tells_of_print_and_of_a_clipped_core_where_no_region_holds() {
     let speck = why_marbled(SPECK, 1.0);
-    says(&speck, &["but it looks like white print: log odds of a highlight ", "(nothing counts up to -1.5"]);
+    says(
+        &speck,
+        &["but it looks like white print: log odds of a highlight ", "(nothing counts up to \u{2212}1.5"],
+    );
     let restored = why_marbled(CLIPPED, 1.0);
     says(
         &restored,

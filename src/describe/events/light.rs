@@ -2,7 +2,7 @@
 
 use super::{Describe, LineObjects, nothing};
 use crate::describe::Names;
-use crate::describe::names::{count, direction, tenths};
+use crate::describe::names::{count, direction, signed, tenths};
 use crate::trace::{
     AveragedDirection, Contribution, HighlightsAveraged, IlluminantEstimated, IlluminantGiven, LampLimits,
     LampOfRegion, LampsCompared, LightBasis, LightChosen, LightLimits, LightOdds, TwoLightTest, VoteResult,
@@ -307,17 +307,12 @@ fn odds_in_words(odds: &LightOdds, limits: &LightLimits) -> String {
     format!(
         "by the color of both lights {}, by their intervals {}, by their shares of the votes {}: log odds of {} for the votes, \
          more than {:.2} are needed",
-        signed(odds.unusualness),
-        signed(odds.intervals),
-        signed(odds.shares),
-        signed(odds.sum()),
+        signed(odds.unusualness, 2),
+        signed(odds.intervals, 2),
+        signed(odds.shares, 2),
+        signed(odds.sum(), 2),
         limits.log_odds
     )
-}
-
-/// A number with its sign; a minus sign, not a hyphen.
-fn signed(number: f64) -> String {
-    format!("{number:+.2}").replace('-', "\u{2212}")
 }
 
 /// Why the planes' light does not decide.

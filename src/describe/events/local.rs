@@ -3,7 +3,7 @@
 use super::{Describe, LineObjects, nothing};
 use crate::describe::Names;
 use crate::describe::names::short;
-use crate::describe::names::{count, percent, tenths};
+use crate::describe::names::{count, percent, signed, tenths};
 use crate::trace::{
     LocalBegan, LocalStart, PictureOddsFound, PlausibilityTested, RepairTried, RepairVerdict,
 };
@@ -78,8 +78,9 @@ impl Describe for PictureOddsFound {
         let Self { pixels, log_odds, .. } = *self;
         let most = if log_odds > 0.0 { "highlight" } else { "print" };
         format!(
-            "of {} paler than their hue most is {most}: {log_odds:+.1} is added to the log odds of each pixel",
-            count(pixels, "pixel")
+            "of {} paler than their hue most is {most}: {} is added to the log odds of each pixel",
+            count(pixels, "pixel"),
+            signed(log_odds, 1)
         )
     }
 

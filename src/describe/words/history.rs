@@ -3,7 +3,7 @@
 use super::super::events::{interval_text, passed_over, variances};
 use super::local_history::{surroundings, unfit};
 use super::reason::{NO_VALUE, OUTSIDE_AREA};
-use super::{Names, count, ordinal, percent, won};
+use super::{Names, count, ordinal, percent, signed, won};
 use crate::color::Trial;
 use crate::reflection::{SliceBound, SliceMiss};
 use crate::trace::{
@@ -330,8 +330,10 @@ fn split(names: &Names, story: &SplitStory) -> String {
             format!(" ({offset:.1} counts off the body line, noise up to {least_offset:.1})")
         });
         format!(
-            "; body {:.1}, surface {:.1}{none}, \u{3b5} {:+.1} counts",
-            amounts.body, amounts.surface, amounts.noise
+            "; body {:.1}, surface {:.1}{none}, \u{3b5} {} counts",
+            amounts.body,
+            amounts.surface,
+            signed(amounts.noise, 1)
         )
     });
     let without = if ambient.iter().all(|&band| band == 0.0) {

@@ -1,6 +1,7 @@
 //! A pixel's surroundings in words, where no region explains it.
 
 use super::super::events::failed_limits;
+use super::{signed, typographic};
 use crate::trace::{HighlightTerms, LocalFate, LocalStory, Ramp, RestoredBand, Unfit};
 
 /// Smallest change of chromaticity that is told, degrees.
@@ -95,10 +96,13 @@ fn without_hue(story: &LocalStory) -> String {
 fn evidence(story: &LocalStory, terms: &HighlightTerms) -> String {
     let Ramp { start, end } = story.limits.odds;
     let HighlightTerms { chroma, independence, brightness, edges } = terms;
+    let [start, end] = [start, end].map(|odds| typographic(&odds.to_string()));
+    let [odds, of_picture] = [story.odds, story.picture_odds].map(|odds| signed(odds, 1));
+    let [chroma, independence, brightness, edges] =
+        [chroma, independence, brightness, edges].map(|&odds| signed(odds, 1));
     format!(
-        "log odds of a highlight {:+.1} (nothing counts up to {start}, all from {end} on), averaged around, of the picture {:+.1}; \
-         here chroma {chroma:+.1}, independence of the body {independence:+.1}, brightness {brightness:+.1}, edges {edges:+.1}",
-        story.odds, story.picture_odds
+        "log odds of a highlight {odds} (nothing counts up to {start}, all from {end} on), averaged around, of the picture {of_picture}; \
+         here chroma {chroma}, independence of the body {independence}, brightness {brightness}, edges {edges}"
     )
 }
 

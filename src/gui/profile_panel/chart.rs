@@ -3,7 +3,9 @@
 
 use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::gui::widgets;
-use egui::{Align2, Color32, FontId, Painter, Pos2, Rangef, Rect, Shape, Stroke, Ui, pos2, vec2};
+use egui::{
+    Align, Align2, Color32, FontId, Layout, Painter, Pos2, Rangef, Rect, Shape, Stroke, Ui, pos2, vec2,
+};
 
 /// Smallest distance between two ticks of the axes of positions and of values, points.
 const TICKS_APART_PT: [f32; 2] = [64.0, 36.0];
@@ -135,13 +137,20 @@ pub fn legend(
         for curve in curves {
             let is_hidden = hidden.contains(&curve.name);
             let color = if is_hidden { palette.line } else { curve.color };
-            widgets::chip(ui, palette, color, curve.name);
             let value = position_px.filter(|_| !is_hidden).and_then(|position| curve.value_at(position));
             let value = value
                 .map_or_else(String::new, |value| format!(" {:>6}", widgets::signed(f64::from(value), 1)));
             let tone = if is_hidden { palette.secondary } else { palette.text };
             let text = widgets::with_subscripts(&format!("{}{value}", curve.name), SMALL_PT, tone);
-            let name = ui.add(egui::Button::new(text).frame(false));
+            // Color and name have a space of their own, so that a wrapped row does not part them.
+            let name_pt = ui.painter().layout_job(text.clone()).size().x;
+            let space =
+                vec2(12.0 + ui.spacing().item_spacing.x + name_pt.ceil(), ui.spacing().interact_size.y);
+            let entry = ui.allocate_ui_with_layout(space, Layout::left_to_right(Align::Center), |ui| {
+                widgets::chip(ui, palette, color, curve.name);
+                ui.add(egui::Button::new(text).frame(false))
+            });
+            let name = entry.inner;
             if name.on_hover_text("Click to hide or show this curve.").clicked() {
                 if is_hidden { hidden.retain(|name| *name != curve.name) } else { hidden.push(curve.name) }
             }

@@ -3,7 +3,7 @@
 use super::item::left_out;
 use super::{Inspection, Tone};
 use crate::raster::{HypothesisId, PixelIndex, RegionId};
-use crate::trace::{Class, Replay};
+use crate::trace::{Class, PixelKind, Replay};
 use crate::view::{HypothesisRow, Item, PixelReading, RegionNames, ResultSnapshot, counted, hypothesis_rows};
 
 /// The findings about an item at the cursor; none where the photograph has no such item. `shown`: the result whose trace is replayed, for
@@ -53,8 +53,13 @@ fn of_pixel(
     };
     let becomes = names.region_of(hypothesis);
     let becomes = becomes.map_or_else(String::new, |region| format!(", which becomes region {region}"));
+    // Which kind of pixel it is, is decided at the end alone.
+    let kind = match analyzed.kind {
+        PixelKind::Unassigned => String::new(),
+        kind => format!("{} ", kind.name()),
+    };
     Some(Inspection {
-        sentence: format!("{} pixel of hypothesis {hypothesis}{becomes}", analyzed.kind.name()),
+        sentence: format!("{kind}pixel of hypothesis {hypothesis}{becomes}"),
         ..finding(subject, &format!("In hypothesis {hypothesis}"), Tone::Good, "5.3")
     })
 }

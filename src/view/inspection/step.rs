@@ -10,6 +10,7 @@ use crate::trace::{
     Measured, MergeTried, Pass, PassedOver, RepairTried, RepairVerdict, Replay, Stage, Step,
     WindowClassified,
 };
+use crate::view::grouped;
 
 /// The findings about the step taken last; none before the first step. `colors`: those of the working picture, counts.
 pub fn inspect_step(replay: &Replay, names: &Names, colors: &Raster<[f32; 3]>) -> Option<Inspection> {
@@ -24,7 +25,7 @@ pub fn inspect_step(replay: &Replay, names: &Names, colors: &Raster<[f32; 3]>) -
         Step::Label { .. } => Vec::new(),
     };
     Some(Inspection {
-        subject: format!("Step {}", replay.at()),
+        subject: format!("Step {}", grouped(replay.at())),
         verdict,
         tone,
         sentence: names.step(&step),

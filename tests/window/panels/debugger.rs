@@ -259,6 +259,21 @@ fn it_runs_to_kinds_and_to_changes_of_what_is_selected() {
 }
 
 #[test]
+fn a_breakpoint_without_arguments_takes_one_line() {
+    let mut window = tiny_window();
+    window.state_mut().show_alone(Some(Pane::Breakpoints));
+    window.set_size(egui::vec2(320.0, 400.0));
+    window.run_steps(2);
+    for _ in 0..2 {
+        click(&mut window, Role::Button, "Add breakpoint");
+    }
+    let [first, second] = [1, 2].map(|number| {
+        named(&window, Role::CheckBox, &format!("Breakpoint {number} enabled")).rect().center().y
+    });
+    assert!(second - first < 28.0, "the second is {} points below the first", second - first);
+}
+
+#[test]
 fn a_breakpoint_made_with_the_controls_stops_playing() {
     let mut window = tiny_window();
     window.state_mut().show_alone(Some(Pane::Breakpoints));

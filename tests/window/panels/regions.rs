@@ -92,6 +92,7 @@ fn headings_sort() {
         rows(window).iter().map(|&id| regions[usize::from(id) - 1].pixels).collect()
     };
     assert!(pixels(&window).is_sorted_by(|a, b| a >= b), "{:?}", pixels(&window));
+    assert!(says(&window, "pixels, descending"), "the heading tells the order");
     click(&mut window, Role::Button, "pixels");
     assert!(pixels(&window).is_sorted(), "{:?}", pixels(&window));
     for heading in ["body C_b", "surface C_s", "angle", "highlight", "rms", "notes"] {
