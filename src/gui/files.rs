@@ -47,6 +47,8 @@ pub struct Dialogs {
     focus_before: Option<egui::Id>,
     /// Whether the path is confirmed without a key or a button, because the file was dropped.
     is_confirmed: bool,
+    /// The file that exists and that the next confirmation replaces.
+    replaced: Option<PathBuf>,
     /// What is wrong with the path, until the path is changed.
     problem: String,
     /// The work that was confirmed and is under way. The dialog stays open until the work has ended, so that an error leaves
@@ -96,6 +98,7 @@ impl Dialogs {
         self.problem.clear();
         self.is_new = true;
         self.path.clear();
+        self.replaced = None;
     }
 
     /// Opens the export dialog for a file of one layer.
@@ -254,11 +257,36 @@ impl Dialogs {
         }
     }
 
+    /// The typed path; of a file to write that has no extension, with that of its kind.
+    fn confirmed_path(&self, dialog: Dialog) -> PathBuf {
+        let path = typed_path(&self.path).unwrap_or_default();
+        let kind = match dialog {
+            Dialog::SaveWorkspace => return workspace_path(path),
+            Dialog::SaveParameters => ExportKind::Parameters,
+            Dialog::Export => self.export.kind,
+            Dialog::Open | Dialog::LoadParameters | Dialog::OpenWorkspace | Dialog::OpenElsewhere(_) => {
+                return path;
+            }
+        };
+        match Path::new(kind.file()).extension() {
+            Some(extension) if path.extension().is_none() && path.file_name().is_some() => {
+                path.with_added_extension(extension)
+            }
+            _ => path,
+        }
+    }
+
     /// Does what the dialog is for with the typed path, or says what is wrong with the path. The dialog closes when the work has ended well.
     fn confirm(&mut self, dialog: Dialog, cx: &mut PanelContext) {
-        let path = typed_path(&self.path).unwrap_or_default();
+        let path = self.confirmed_path(dialog);
         if let Some(problem) = problem_of(dialog, &path, cx.state) {
             return self.fail(problem);
+        }
+        if !dialog.reads() && path.is_file() && self.replaced.as_ref() != Some(&path) {
+            let (shown, button) = (path.display(), dialog.button());
+            self.fail(format!("{shown}: exists; {button} once more replaces it, or choose another name"));
+            self.replaced = Some(path);
+            return;
         }
         self.problem.clear();
         self.waiting =
@@ -270,7 +298,7 @@ impl Dialogs {
             Dialog::OpenWorkspace => JobCommand::OpenWorkspace(path),
             Dialog::OpenElsewhere(kind) => JobCommand::OpenElsewhere(kind, path),
             Dialog::SaveParameters => JobCommand::Export(ExportKind::Parameters.to(path)),
-            Dialog::SaveWorkspace => JobCommand::Export(ExportKind::Workspace.to(workspace_path(path))),
+            Dialog::SaveWorkspace => JobCommand::Export(ExportKind::Workspace.to(path)),
             Dialog::Export if self.export.kind == ExportKind::View => {
                 self.waiting = Some(Waiting::Drawing);
                 self.view_export =
@@ -374,7 +402,11 @@ impl Dialogs {
         let Some(answer) = self.system_dialog.take_answer(ui.ctx()) else { return };
         self.focus = Some(Focus::Name);
         match answer {
-            Answer::Chosen(path) => self.path = path.display().to_string(),
+            Answer::Chosen(path) => {
+                self.path = path.display().to_string();
+                // The system's dialog has asked whether to replace a file.
+                self.replaced = Some(path);
+            }
             Answer::NotShown => {
                 "This system shows no file dialog. Type or paste a path, or drop a file on the window."
                     .clone_into(&mut self.problem);

@@ -146,6 +146,31 @@ fn every_dialog_that_writes_proposes_a_path_beside_the_photograph() {
 }
 
 #[test]
+fn a_file_that_exists_is_replaced_on_the_second_confirmation_alone() {
+    let folder = tempfile::tempdir().unwrap();
+    let (file, other) = (folder.path().join("mine.csv"), folder.path().join("ours.csv"));
+    for path in [&file, &other] {
+        fs::write(path, "mine").unwrap();
+    }
+    let mut window = tiny_window();
+    press(&mut window, Modifiers::COMMAND, Key::E);
+    click(&mut window, Role::RadioButton, "Regions table");
+    // The extension is appended before the file is looked for.
+    for path in [folder.path().join("mine"), other.clone(), file.clone()] {
+        answer(&mut window, &path);
+        assert!(
+            typed(&window).is_some() && says(&window, "exists; Export once more replaces it"),
+            "{path:?}"
+        );
+    }
+    assert_eq!(fs::read_to_string(&file).unwrap(), "mine");
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    assert_eq!(typed(&window), None, "the dialog is closed");
+    assert_ne!(fs::read_to_string(&file).unwrap(), "mine");
+    assert_eq!(fs::read_to_string(&other).unwrap(), "mine", "the other name was not confirmed");
+}
+
+#[test]
 fn what_is_typed_replaces_the_name_that_the_dialog_proposes() {
     let mut window = tiny_window();
     press(&mut window, Modifiers::COMMAND, Key::E);

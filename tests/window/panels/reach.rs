@@ -129,7 +129,7 @@ fn needs_none(name: &str) -> bool {
         || reasons.any(|known| {
             *known == name
                 || known.len() > 9 && name.starts_with(known)
-                || name == format!("{known} \u{2191}")
+                || name == format!("{known}, ascending")
         })
 }
 
