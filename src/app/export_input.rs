@@ -70,7 +70,7 @@ impl ExportInput {
 }
 
 /// The files of the photographs that are open, and of the pictures of other programs.
-fn open_files(state: &State) -> Vec<PathBuf> {
+pub(super) fn open_files(state: &State) -> Vec<PathBuf> {
     let pictures = state.picture.iter().chain(state.others.iter().map(|other| &other.picture));
     let photographs = pictures.filter_map(|picture| picture.origin.path());
     let elsewhere =

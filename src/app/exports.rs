@@ -3,7 +3,7 @@
 //! A new kind of export is a row here and a writer in `write.rs`.
 
 use super::State;
-use super::export_input::{ExportInput, ExportOptions};
+use super::export_input::{ExportInput, ExportOptions, open_files};
 use super::jobs::Stop;
 use super::write::{self, Contents};
 use crate::export::write_file;
@@ -232,6 +232,11 @@ pub(super) fn write_export(
         Ok(()) => Ok(format!("wrote {what} to {}", path.display())),
         Err(error) => Err(format!("{}; choose another place", write::error_chain(&error))),
     }
+}
+
+/// Why a file at `path` cannot be written beside what `state` has open; `None` where it can.
+pub fn problem_of_replacing(path: &Path, state: &State) -> Option<String> {
+    expect_no_open_file(path, &open_files(state)).err()
 }
 
 /// Fails where writing to `path` would replace an open file, or the folder of one: a photograph cannot be got back.

@@ -46,7 +46,7 @@ pub use document::{Document, Gesture, History};
 pub use document_change::document_change;
 pub use effect::Effect;
 pub use export_input::{DrawnPicture, ExportOptions};
-pub use exports::{Export, ExportKind};
+pub use exports::{Export, ExportKind, problem_of_replacing};
 pub use files_to_open::FilesToOpen;
 pub use jobs::{Job, JobState};
 pub use panics::catch_panic;

@@ -1,6 +1,6 @@
 //! The table of the panels, and their arrangement: docked, resized, rearranged by hand, and saved with the workspace.
 //!
-//! A new panel is a module with a function `show`, and a row of the table.
+//! A new panel is a module with a function `show`, a variant of [`Pane`], and a row of the table.
 
 use super::PanelContext;
 use super::about::About;

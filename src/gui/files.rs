@@ -8,7 +8,9 @@ use super::proposed_path::{proposed_layer_path, proposed_path, proposed_pixels_p
 use super::system_dialog::{Answer, SystemDialog, Wanted};
 use super::typed_path::{file_name_span, typed_path, unique_names};
 use super::view_export::ViewExport;
-use crate::app::{Export, ExportKind, JobCommand, Notice, Severity, State, ViewCommand, is_workspace};
+use crate::app::{
+    Export, ExportKind, JobCommand, Notice, Severity, State, ViewCommand, is_workspace, problem_of_replacing,
+};
 use crate::truth::sample::{SAMPLES, THREE_LAMPS};
 use crate::view::{ElsewhereKind, Layer, Origin};
 use egui::text::{CCursor, CCursorRange};
@@ -313,8 +315,10 @@ impl Dialogs {
         });
     }
 
-    /// Says in the dialog what failed. Everything that was entered stays, so that it can be corrected.
+    /// Says in the dialog what failed. Everything that was entered stays, so that it can be corrected; a path that was to be replaced is to be
+    /// confirmed anew.
     fn fail(&mut self, problem: String) {
+        self.replaced = None;
         (self.problem, self.focus, self.waiting) = (problem, Some(Focus::AsBefore), None);
     }
 
@@ -457,7 +461,8 @@ fn newest_notice(cx: &PanelContext) -> u64 {
 fn problem_of(dialog: Dialog, path: &Path, state: &State) -> Option<String> {
     if !dialog.reads() {
         let busy = "another export is still under way: wait for its end, or cancel it, and then try again";
-        return state.jobs.export.is_some().then(|| busy.to_owned());
+        let is_busy = state.jobs.export.is_some();
+        return is_busy.then(|| busy.to_owned()).or_else(|| problem_of_replacing(path, state));
     }
     if path.is_file() {
         return None;

@@ -1,4 +1,4 @@
-//! Patches of a region whose colors its plane cannot explain (refinement `far_colors`; section 5.6).
+//! Patches of a region whose colors its plane cannot explain (refinement `far_colors`; section 5.5).
 //!
 //! The clipping stage gives a region what is bright beside its highlights and what it surrounds (section 5.5), because the color of a
 //! clipped or bloomed pixel tells nothing. The same rule takes small objects in front of a wall, whose colors are believed. Split by

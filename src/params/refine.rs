@@ -12,13 +12,12 @@ macro_rules! switches {
     ($($field:ident $variant:ident {
         $(was: $former:literal,)? first_stage: $stage:ident, meaning: $meaning:literal, worth: $worth:literal,
     })*) => {
-        /// The refinements beyond the paper, each a switch; `method = paper` ignores all of them.
+        /// The refinements beyond the paper, each a switch; `method = paper` uses only those that are added to it.
         ///
         /// Measured effects come from switching each off alone. They are means over nine rendered scenes of spheres, cups
         /// and donuts and, where a second number stands, over a second set of seven scenes (tori, cubes, ellipsoids, a
         /// cylinder, small objects, similar hues, warm and blue lamps). From `vote_light` on they are means over eleven
-        /// scenes of printed, marbled, speckled and fading objects; none of these switches changes the scenes of the first
-        /// two sets by .01 dB.
+        /// scenes of printed, marbled, speckled and fading objects, unless the effect names other pictures.
         #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
         #[serde(default, deny_unknown_fields)]
         #[allow(clippy::struct_excessive_bools, reason = "these are the switches themselves")]

@@ -1,6 +1,6 @@
 //! Reads a file into linear light, and masks the pixels that are not used.
 //!
-//! [`read`] reads eight formats, recognized by content and not by name. The function undoes the tone curve that the
+//! [`read`] reads nine formats, recognized by content and not by name. The function undoes the tone curve that the
 //! user, the file or the default of the sample type gives, composites transparency on black, and turns the picture
 //! upright. The resulting [`Photo`] holds linear counts for the analysis, and the [`Source`], which is needed to write
 //! a picture in the way of the original file.

@@ -2,7 +2,7 @@
 //!
 //! The color of such a pixel is not usable, so the position decides: from its highlight pixels (nearer to the highlight line
 //! than to the matte line) a region grows into unassigned neighbors that are brighter than the meeting point of both lines.
-//! Then holes are filled: components of distorted pixels on whose assigned border one region has the largest part, and small components of unassigned
+//! Then holes are filled: components of distorted pixels of whose assigned border one region has at least 70 %, and small components of unassigned
 //! pixels that lie wholly inside one region. The paper only says that such a method “should be able to” help: the reading `fill_holes`.
 //!
 //! The position alone gives the clipped body of one object to the highlight of the object beside it: a bright green ball

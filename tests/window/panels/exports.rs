@@ -163,6 +163,9 @@ fn a_file_that_exists_is_replaced_on_the_second_confirmation_alone() {
             "{path:?}"
         );
     }
+    answer(&mut window, &tiny());
+    assert!(says(&window, "is open, and is not replaced"), "the photograph is not offered to be replaced");
+    answer(&mut window, &file);
     assert_eq!(fs::read_to_string(&file).unwrap(), "mine");
     press(&mut window, Modifiers::NONE, Key::Enter);
     assert_eq!(typed(&window), None, "the dialog is closed");
