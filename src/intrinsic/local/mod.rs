@@ -171,8 +171,8 @@ fn split_unexplained<R: Recorder>(
     Some(LocalSplit { lines, lamps: map.lamps.clone(), confidence, filled, hues, chromaticity })
 }
 
-/// The lines that give the `amounts` of the window, counts of J; each pixel keeps its share in `kept_shares`, 0…1, of them. `sigma`: standard
-/// deviation of the noise of a band, counts.
+/// The lines that give the `amounts` of the window, counts of J, of which each pixel keeps its share in `kept_shares`, 0…1, before the guided
+/// filter and again after it (`fade`). `sigma`: standard deviation of the noise of a band, counts.
 fn amount_lines(
     input: &AnalysisInput,
     map: &DesaturationMap,
@@ -186,7 +186,10 @@ fn amount_lines(
         return AmountLines::constant(map, amounts);
     }
     let lines = AmountLines::guided(map, amounts, sigma);
-    kept_shares.into_iter().fold(lines, AmountLines::faded)
+    match kept_shares {
+        Some(shares) => lines.faded(shares),
+        None => lines,
+    }
 }
 
 /// The share of the excess m_s of each pixel of the window that is surface reflection, 0…1; 0 for pixels that a region
@@ -407,6 +410,23 @@ mod tests {
         let error = (vec3(result.body[40 * SIDE_PX + 48]) - slope(48.0, 40.0)).norm();
         assert!(error < 20.0, "{error}");
         assert_eq!(result.kinds[40 * SIDE_PX + 48], PixelKind::Unassigned);
+    }
+
+    #[test]
+    fn no_surface_reflection_is_taken_beside_clipped_pixels_that_are_not_filled() {
+        // A pale strip of 8 px beside clipped pixels of a much larger area, which are no core of so small a highlight.
+        let (_, result) = local(|x, y| {
+            let sheen = light() * (40.0 * (1.0 - (60.0 - x) / 8.0).clamp(0.0, 1.0));
+            if x > 60.0 { Vec3::repeat(255.0) } else { slope(x, y) + sheen }
+        });
+        let surface = |x: usize| result.surface[48 * SIDE_PX + x].iter().sum::<f32>();
+        assert!(
+            (50..58).any(|x| surface(x) > 1.0),
+            "the strip is split: {:?}",
+            (50..61).map(surface).collect::<Vec<_>>()
+        );
+        assert!(surface(60) < 1e-3, "beside the clipped pixels: {}", surface(60));
+        assert!(surface(70) < 1e-3, "the clipped pixels are not filled");
     }
 
     #[test]
