@@ -139,22 +139,24 @@ impl Describe for RepairTried {
                 "{blob} is filled with the body around it: {share} of its ring of 2 px are highlight (at least {least}), {inner:.1} \
                  counts next to it, {outer:.1} farther out"
             ),
-            RepairVerdict::TooLarge => format!("{blob} is left: it is as large as a window or the sky"),
-            RepairVerdict::NoRing => format!("{blob} is left: no ring of unclipped pixels lies around it"),
+            RepairVerdict::TooLarge => format!("{blob} is not filled: it is as large as a window or the sky"),
+            RepairVerdict::NoRing => {
+                format!("{blob} is not filled: no ring of unclipped pixels lies around it")
+            }
             RepairVerdict::NoHighlight => format!(
-                "{blob} is left: {share} of its ring of 2 px are highlight, at least {least} are needed"
+                "{blob} is not filled: {share} of its ring of 2 px are highlight, at least {least} are needed"
             ),
             RepairVerdict::Uneven => format!(
-                "{blob} is left: the body around it varies by {} of its mean (at most {}), so that it is of several materials",
+                "{blob} is not filled: the body around it varies by {} of its mean (at most {}), so that it is of several materials",
                 percent(f64::from(spread.value)),
                 percent(f64::from(spread.limit))
             ),
             RepairVerdict::TooSmall => format!(
-                "{blob} is left: {:.0} highlight pixels lie around it, at least {:.0} are needed",
+                "{blob} is not filled: {:.0} highlight pixels lie around it, at least {:.0} are needed",
                 around.value, around.limit
             ),
             RepairVerdict::NoRise => format!(
-                "{blob} is left: the highlight does not rise towards it, {inner:.1} counts next to it, {outer:.1} farther out"
+                "{blob} is not filled: the highlight does not rise towards it, {inner:.1} counts next to it, {outer:.1} farther out"
             ),
         }
     }

@@ -1,10 +1,14 @@
-//! Rule `clip_repair`: surface reflection fades out towards clipped pixels that are not filled.
+//! Rule `clip_repair`: surface reflection fades out towards clipped areas that are not filled.
 //!
-//! Clipped pixels that may be white paper, a metal or the sky keep their color (`repair`). Surface reflection that is taken from the pixels
-//! beside them would leave an edge there, a bright core in a darker ring. So the amounts are multiplied by a share that falls to 0 towards
-//! such pixels, before the guided filter, whose lines are fitted to the amounts, and after it, because the filter spreads the amounts again.
-//! 22 photographs, largest share of new edges 3.0 → 1.5 %; 100 rendered pictures lose at most .04 dB as they are, .15 dB at JPEG 92 and
-//! .14 dB demosaiced.
+//! A clipped area that may be white paper, a metal or the sky keeps its color (`repair`). Surface reflection that is taken from the pixels
+//! beside it would leave an edge there, a bright core in a darker ring. So the amounts are multiplied by a share that falls to 0 towards
+//! such areas, before the guided filter, whose lines are fitted to the amounts, and after it, because the filter spreads the amounts again.
+//! Towards single pixels and small blobs the share hardly falls. They take the surface reflection of the pixels around them, and would be
+//! bright specks without it.
+//!
+//! 22 photographs, largest share of new edges 3.0 → 1.5 % by the fading and → .9 % by the surface reflection of clipped pixels, mean .71 →
+//! .48 → .16 %. 100 rendered pictures lose at most .04 dB as they are, .15 dB at JPEG 92 and .14 dB demosaiced by the fading; by the surface
+//! reflection of clipped pixels none loses, and the mean rises by .03, .06 and .13 dB.
 
 use crate::raster::{Mask, Raster, blur};
 use crate::trace::Ramp;

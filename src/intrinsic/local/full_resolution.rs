@@ -5,7 +5,8 @@
 //! functions, interpolated between the working pixels, give the amounts of the photograph's pixels, so that the edges
 //! of the photograph's highlights are where the photograph has them. Interpolated likewise are
 //! the change of chromaticity (rule `chromaticity_prior`), as a share of the length of body reflection, and the body reflection with
-//! which the working picture was filled, which a clipped pixel takes.
+//! which the working picture was filled, which a clipped pixel takes. Where the working picture was not filled, a clipped pixel takes the
+//! surface reflection of the pixels around it.
 
 use super::chromaticity::changed;
 use super::guided::AmountLine;
@@ -73,6 +74,7 @@ pub fn split_locally_at_full_resolution(
                     by_working_picture
                         .restored(color, working_pixel, &nearest)
                         .or_else(|| by_working_picture.filled(color, &nearest))
+                        .or_else(|| by_working_picture.like_around(color, working_pixel, &nearest))
                 } else {
                     by_working_picture.split(color, color, working_pixel, &nearest)
                 };
@@ -174,6 +176,13 @@ impl<'a> ByWorkingPicture<'a> {
             body = changed(body, change, limit);
         }
         Some(PixelSplit { body, surface: moved.surface, confidence })
+    }
+
+    /// The split of a clipped pixel that is neither restored nor filled, by the surface reflection around it: a guess without confidence.
+    /// None where there is no surface reflection.
+    fn like_around(&self, color: [f32; 3], working_pixel: usize, nearest: &Nearest) -> Option<PixelSplit> {
+        let found = self.split(color, color, working_pixel, nearest)?;
+        Some(PixelSplit { confidence: 0.0, ..found })
     }
 
     /// The split of a clipped pixel by the body reflection with which the working picture was filled; none where it was not filled.

@@ -7,7 +7,8 @@
 //! where an object in front of the highlight, or behind its rim, is part of the ring: of a blob of at most 400 pixels, pixels that the plane of a region explains do not
 //! count (100 rendered pictures, body at JPEG 92 .25 dB on average, at most 5.5 dB, none loses). Blobs of more
 //! than 40,000 pixels are not filled. The fill is harmonic: the smoothest that is continuous with the ring. Other
-//! clipped pixels (white paper, the sky) do not change, and the surface reflection around them fades out towards them (`fade`).
+//! clipped pixels take the surface reflection of the pixels around them, which fades out towards larger blobs (`fade`): these are white
+//! paper or the sky.
 
 use super::desaturation_map::DesaturationMap;
 use super::surroundings::{Surroundings, harmonic};
