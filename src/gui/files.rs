@@ -2,21 +2,20 @@
 
 use super::PanelContext;
 use super::action::{LayerFile, PixelSet};
+use super::confirmed_path::{confirmed_path, problem_of};
 use super::dialog::Dialog;
 use super::export_form::ExportForm;
 use super::proposed_path::{proposed_layer_path, proposed_path, proposed_pixels_path};
 use super::system_dialog::{Answer, SystemDialog, Wanted};
 use super::typed_path::{file_name_span, typed_path, unique_names};
 use super::view_export::ViewExport;
-use crate::app::{
-    Export, ExportKind, JobCommand, Notice, Severity, State, ViewCommand, is_workspace, problem_of_replacing,
-};
+use crate::app::{Export, ExportKind, JobCommand, Notice, Severity, ViewCommand, is_workspace};
 use crate::truth::sample::{SAMPLES, THREE_LAMPS};
 use crate::view::{ElsewhereKind, Layer, Origin};
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{Key, Modifiers, RichText, Ui};
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 /// Least and largest width of the field for the path, points.
 const PATH_PT: [f32; 2] = [200.0, 460.0];
@@ -259,28 +258,9 @@ impl Dialogs {
         }
     }
 
-    /// The typed path; of a file to write that has no extension, with that of its kind.
-    fn confirmed_path(&self, dialog: Dialog) -> PathBuf {
-        let path = typed_path(&self.path).unwrap_or_default();
-        let kind = match dialog {
-            Dialog::SaveWorkspace => return workspace_path(path),
-            Dialog::SaveParameters => ExportKind::Parameters,
-            Dialog::Export => self.export.kind,
-            Dialog::Open | Dialog::LoadParameters | Dialog::OpenWorkspace | Dialog::OpenElsewhere(_) => {
-                return path;
-            }
-        };
-        match Path::new(kind.file()).extension() {
-            Some(extension) if path.extension().is_none() && path.file_name().is_some() => {
-                path.with_added_extension(extension)
-            }
-            _ => path,
-        }
-    }
-
     /// Does what the dialog is for with the typed path, or says what is wrong with the path. The dialog closes when the work has ended well.
     fn confirm(&mut self, dialog: Dialog, cx: &mut PanelContext) {
-        let path = self.confirmed_path(dialog);
+        let path = confirmed_path(&self.path, dialog, self.export.kind);
         if let Some(problem) = problem_of(dialog, &path, cx.state) {
             return self.fail(problem);
         }
@@ -442,63 +422,7 @@ fn elsewhere_note(ui: &mut Ui, cx: &PanelContext, kind: ElsewhereKind) {
     ui.add(egui::Label::new(RichText::new(text).color(cx.palette.secondary)).wrap());
 }
 
-/// A workspace's path, with the extension of workspaces appended where the path has another extension or none.
-fn workspace_path(path: PathBuf) -> PathBuf {
-    if is_workspace(&path) {
-        return path;
-    }
-    let mut name = path.into_os_string();
-    name.push(".dichroscope");
-    PathBuf::from(name)
-}
-
 /// The id of the newest notice; 0 without a notice.
 fn newest_notice(cx: &PanelContext) -> u64 {
     cx.state.notices.iter().map(|notice| notice.id).max().unwrap_or(0)
-}
-
-/// What speaks against the work of a dialog; none where the path is a file that can be read, or can be written now.
-fn problem_of(dialog: Dialog, path: &Path, state: &State) -> Option<String> {
-    if !dialog.reads() {
-        let busy = "another export is still under way: wait for its end, or cancel it, and then try again";
-        let is_busy = state.jobs.export.is_some();
-        return is_busy.then(|| busy.to_owned()).or_else(|| problem_of_replacing(path, state));
-    }
-    if path.is_file() {
-        return None;
-    }
-    let what = if path.is_dir() {
-        "is a folder: type the name of a file in it too, or choose one with Browse"
-    } else {
-        "there is no such file: correct the path, or choose a file with Browse"
-    };
-    Some(format!("{}: {what}", path.display()))
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_workspace_gets_its_extension() {
-        for (typed, path) in [
-            ("a", "a.dichroscope"),
-            ("a.v2", "a.v2.dichroscope"),
-            ("/b/a.dichroscope", "/b/a.dichroscope"),
-            ("a.json", "a.json.dichroscope"),
-        ] {
-            assert_eq!(workspace_path(typed.into()), Path::new(path));
-        }
-    }
-
-    #[test]
-    fn a_path_that_cannot_be_read_has_a_problem_and_a_path_to_be_written_has_none() {
-        let (folder, state) = (tempfile::tempdir().unwrap(), State::default());
-        let missing = folder.path().join("x.png");
-        assert!(problem_of(Dialog::Open, &missing, &state).unwrap().contains("no such file"));
-        assert!(problem_of(Dialog::OpenWorkspace, folder.path(), &state).unwrap().contains("is a folder"));
-        assert_eq!(problem_of(Dialog::Export, &missing, &state), None);
-        std::fs::write(&missing, "").unwrap();
-        assert_eq!(problem_of(Dialog::Open, &missing, &state), None);
-    }
 }

@@ -12,6 +12,7 @@ mod command_list;
 mod command_palette;
 mod compact_dock;
 mod compare_panel;
+mod confirmed_path;
 mod context_menu;
 mod copied_texts;
 mod cube_choices;
