@@ -1,8 +1,9 @@
 //! The difference between two documents in words, for the list of the history.
 
 use super::Document;
+use crate::describe::counted;
 use crate::raster::Mask;
-use crate::view::{Item, NamedMarks, SettingChange, counted, setting_changes};
+use crate::view::{Item, NamedMarks, SettingChange, setting_changes};
 use std::sync::Arc;
 
 /// What changed from one document to the next; `width` is the photograph's, pixels.

@@ -5,6 +5,7 @@
 
 mod events;
 mod facts;
+mod grouped;
 mod light_facts;
 mod light_words;
 mod names;
@@ -18,6 +19,7 @@ pub use facts::{
     AmbientAsked, AreaFacts, ImageFacts, LightFacts, ParameterFacts, ParamsFacts, Report, SCHEMA, ScaleFacts,
     Timings,
 };
+pub use grouped::{counted, grouped, grouped_decimals};
 pub use light_facts::{
     AmbientFacts, CodingFacts, IlluminantFacts, LightEstimateFacts, NoiseFacts, SecondLampFacts,
 };

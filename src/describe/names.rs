@@ -1,5 +1,6 @@
 //! Names of hypotheses, regions and pixels in sentences, and the format of numbers.
 
+use crate::describe::counted;
 use crate::raster::{Blocks, HypothesisId, PixelIndex, RegionId};
 use crate::trace::{SecondLookRecord, Trace, regions_of};
 use serde_json::Value;
@@ -82,8 +83,7 @@ impl Names {
 
 /// `1 pixel`, `12 pixels`.
 pub(super) fn count(n: impl Into<u64>, what: &str) -> String {
-    let n = n.into();
-    format!("{n} {what}{}", if n == 1 { "" } else { "s" })
+    counted(n.into() as usize, what)
 }
 
 /// A direction with two decimals.

@@ -4,7 +4,7 @@ use crate::color::srgb_from_linear;
 
 /// A whole number in groups of three digits, with narrow spaces at which no line is broken.
 pub fn grouped(number: usize) -> String {
-    crate::view::grouped(number).replace('\u{2009}', "\u{202f}")
+    crate::describe::grouped(number).replace('\u{2009}', "\u{202f}")
 }
 
 /// A share as percent with one decimal.

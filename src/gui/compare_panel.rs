@@ -157,7 +157,7 @@ fn decisions_at(ui: &mut Ui, cx: &PanelContext, step: usize) {
             ui.label(
                 RichText::new(format!(
                     "{name}  step {}, {stage}: {decision}",
-                    crate::view::grouped(step + 1)
+                    crate::describe::grouped(step + 1)
                 ))
                 .size(SMALL_PT),
             );
@@ -260,7 +260,7 @@ fn regions(ui: &mut Ui, cx: &mut PanelContext, found: &Comparison) {
             RegionChange::Changed | RegionChange::Kept => "changed",
         };
         let sign = if region.pixels_newest < region.pixels_pinned { "\u{2212}" } else { "+" };
-        let pixels = crate::view::grouped(region.pixels_newest.abs_diff(region.pixels_pinned));
+        let pixels = crate::describe::grouped(region.pixels_newest.abs_diff(region.pixels_pinned));
         let (pinned, newest) = (id(region.pinned), id(region.newest));
         let text = format!("{change_text}  A {pinned} \u{2192} B {newest}  {sign}{pixels} px");
         let row = ui.selectable_label(false, text);

@@ -98,7 +98,7 @@ fn file(ui: &mut Ui, cx: &mut PanelContext, elsewhere: &Elsewhere, kind: Elsewhe
         let name = path.file_name().unwrap_or(path.as_os_str()).to_string_lossy();
         let count = elsewhere.pictures.labels.as_ref().filter(|_| kind == ElsewhereKind::Labels);
         let count = count.map_or_else(String::new, |labels| {
-            format!(", {}", crate::view::counted(label_count(labels), "label"))
+            format!(", {}", crate::describe::counted(label_count(labels), "label"))
         });
         ui.label(format!("{} {name}{count}", kind.name())).on_hover_text(path.display().to_string());
         let layers = Layer::ALL.into_iter().filter(|layer| layer.need() == Some(LayerNeed::Elsewhere(kind)));

@@ -73,7 +73,7 @@ impl NamedMarksList {
                 cx.send(Edit::NamedMark(NamedMarkEdit::Rename(index, name)));
             }
         }
-        let count = format!("{} px", crate::view::grouped(mark.pixels));
+        let count = format!("{} px", crate::describe::grouped(mark.pixels));
         ui.label(RichText::new(count).size(SMALL_PT).color(cx.palette.secondary));
         let edit = ui.add(Button::selectable(is_active, format!("Edit {}", mark.name)).small());
         let tip = "The tools change the outline of this mark: Shift adds, Alt takes away.";

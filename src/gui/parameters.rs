@@ -165,7 +165,7 @@ fn tooltip(spec: &ParameterSpec) -> String {
 fn in_photograph_pixels(ui: &mut Ui, cx: &PanelContext, parameter: Parameter, value: f64) {
     let side = cx.state.working_side_px();
     let Some(pixels) = photograph_pixels(parameter, value, side) else { return };
-    let pixels = crate::view::grouped(pixels as usize);
+    let pixels = crate::describe::grouped(pixels as usize);
     let text = format!("of working pixels of {side} \u{d7} {side}; in the photograph {pixels} px");
     ui.add(egui::Label::new(RichText::new(text).size(SMALL_PT).color(cx.palette.secondary)).wrap());
 }

@@ -280,7 +280,7 @@ fn table_cell(
             widgets::chip(ui, palette, widgets::color(color), &format!("color of region {}", region.id));
             ui.add(Label::new(region.id.to_string()).selectable(false));
         }),
-        SortKey::Pixels => number_cell(row, RichText::new(crate::view::grouped(region.pixels)), None),
+        SortKey::Pixels => number_cell(row, RichText::new(crate::describe::grouped(region.pixels)), None),
         SortKey::Body => {
             cell(row, |ui| vector(ui, palette, "body color", Some(region.body), shows_numbers));
         }
@@ -292,7 +292,8 @@ fn table_cell(
             number_cell(row, angle.unwrap_or_else(dash), None);
         }
         SortKey::Highlight => {
-            let pixels = (region.highlight_pixels > 0).then(|| crate::view::grouped(region.highlight_pixels));
+            let pixels =
+                (region.highlight_pixels > 0).then(|| crate::describe::grouped(region.highlight_pixels));
             let branches = &region.highlight_branches;
             let tip = (!branches.is_empty()).then(|| highlight_lines(branches));
             number_cell(row, pixels.map_or_else(dash, RichText::new), tip);
@@ -337,7 +338,7 @@ fn notes(ui: &mut Ui, region: &RegionReflection, palette: &ThemeColors) {
 /// Tooltip about the shades on which a region's highlights lie, one line per highlight line (section 7.4).
 fn highlight_lines(branches: &[HighlightBranch]) -> String {
     let line = |branch: &HighlightBranch| {
-        let (pixels, percent) = (crate::view::grouped(branch.pixels), 100.0 * branch.share);
+        let (pixels, percent) = (crate::describe::grouped(branch.pixels), 100.0 * branch.share);
         format!("from m_b {:.0} counts: {pixels} px, {percent:.0} %", branch.body)
     };
     let lines: Vec<String> = branches.iter().map(line).collect();

@@ -139,7 +139,7 @@ fn facts(ui: &mut Ui, cx: &PanelContext, found: &Statistics) {
         ui.add(Label::new(job).selectable(true).extend()).on_hover_text(tip);
         ui.add_space(8.0);
     };
-    fact(ui, "pixels", crate::view::grouped(found.pixels), "How many pixels are selected.");
+    fact(ui, "pixels", crate::describe::grouped(found.pixels), "How many pixels are selected.");
     let class = found.class.map_or("\u{2013}", Class::name);
     fact(
         ui,

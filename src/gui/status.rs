@@ -92,7 +92,7 @@ fn regions_and_coverage(regions: usize, misfits: usize, coverage: f64) -> String
         1 => ", 1 does not fit".to_owned(),
         some => format!(", {some} do not fit"),
     };
-    let regions = crate::view::counted(regions, "region");
+    let regions = crate::describe::counted(regions, "region");
     format!("{regions}{misfits}, {:.1} %", 100.0 * coverage)
 }
 

@@ -12,7 +12,6 @@ mod curves;
 mod elsewhere;
 mod elsewhere_paths;
 mod geometry;
-mod grouped;
 mod histogram;
 mod inspection;
 mod item;
@@ -55,7 +54,6 @@ pub use compare::{
 pub use elsewhere::{Elsewhere, ElsewherePixel, Held, HeldFigure, held_against, label_count};
 pub use elsewhere_paths::{ElsewhereKind, ElsewherePaths};
 pub use geometry::{GeometrySettings, SPHERE_DISTANCES, meeting_share, sphere_colors, sphere_in_plane};
-pub use grouped::{counted, grouped};
 pub use histogram::{BINS_PER_BAND, ColorBin, Histogram, UniqueColor};
 pub use inspection::{
     Inspection, Limits, ThresholdTest, Tone, candidate_tests, histograms_at_cursor, inspect_beginning,

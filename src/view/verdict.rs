@@ -1,6 +1,7 @@
 //! The verdict on a result: one sentence of clauses, each about something that can be shown.
 
-use super::{Layer, ResultSnapshot, counted};
+use super::{Layer, ResultSnapshot};
+use crate::describe::counted;
 use crate::intrinsic::{RegionReflection, RegionVerdict};
 use crate::params::Baseline;
 use crate::raster::RegionId;

@@ -1,9 +1,9 @@
 //! Ambient light (section 7.5).
 
 use super::{Describe, LineObjects, nothing};
-use crate::describe::Names;
 use crate::describe::light_words::ambient_reason;
 use crate::describe::names::count;
+use crate::describe::{Names, grouped_decimals};
 use crate::trace::{Ambient, Meeting};
 use serde_json::json;
 
@@ -21,11 +21,11 @@ impl Describe for Ambient {
         let [miss, of_black] = meeting.miss_counts;
         format!(
             "{what} subtracted: {reason}; {} pass {} \u{b1} {} counts by {miss:.1} counts (rms) and black by {of_black:.1}, \
-             \u{3c7}\u{b2} {:.1} (significant above {:.1})",
+             \u{3c7}\u{b2} {} (significant above {:.1})",
             count(meeting.lines as u64, "matte line"),
             counts(meeting.counts),
             counts(meeting.sd_counts),
-            meeting.chi_square,
+            grouped_decimals(meeting.chi_square, 1),
             Meeting::SIGNIFICANT_CHI_SQUARE
         )
     }

@@ -3,8 +3,8 @@
 #[cfg(test)]
 use super::hypothesis;
 use super::{Describe, LineObjects, nothing};
-use crate::describe::Names;
 use crate::describe::names::count;
+use crate::describe::{Names, grouped, grouped_decimals};
 use crate::trace::{
     CodeInterval, ColorPeak, ColorPeaksFound, FeatureHistogram, FeatureVerdict, HistogramsSearched, PatchMade,
 };
@@ -21,15 +21,16 @@ impl Describe for HistogramsSearched {
             .collect();
         let others = others.join("; ");
         let Some(chosen) = self.chosen() else {
-            return format!("{region} ({} px) is homogeneous: {others}", self.pixels);
+            return format!("{region} ({} px) is homogeneous: {others}", grouped(self.pixels as usize));
         };
         let cuts: Vec<String> = chosen.cuts.iter().map(ToString::to_string).collect();
         let decision = format!(
-            "{region} ({} px) is split by {} at {}: score {:.0} of 1000, {} in small patches",
-            self.pixels,
+            "{region} ({} px) is split by {} at {}: score {} of {}, {} in small patches",
+            grouped(self.pixels as usize),
             chosen.feature.name(),
             cuts.join(", "),
-            chosen.score.value,
+            grouped_decimals(chosen.score.value.into(), 0),
+            grouped(1000),
             count(chosen.noise_px.unwrap_or(0), "pixel"),
         );
         if others.is_empty() { decision } else { format!("{decision}; {others}") }
@@ -152,7 +153,7 @@ impl Describe for ColorPeaksFound {
             "the histogram of the picture ({}) has {} with at least {} px; {} absorbed",
             count(self.pixels, "pixel"),
             count(self.peaks.len() as u64, "peak"),
-            self.least,
+            grouped(self.least as usize),
             count(self.absorbed, "smaller one"),
         )
     }

@@ -1,8 +1,8 @@
 //! The surface reflection at the borders between regions (beyond section 5.6).
 
 use super::{Describe, LineObjects, nothing};
-use crate::describe::Names;
 use crate::describe::names::short;
+use crate::describe::{Names, counted};
 #[cfg(test)]
 use crate::raster::PixelIndex;
 use crate::trace::BordersLimited;
@@ -13,9 +13,9 @@ use serde_json::json;
 impl Describe for BordersLimited {
     fn sentence(&self, _names: &Names) -> String {
         format!(
-            "{} pixels within {} px of another region keep {:.0} % of their surface reflection, as much as the pixels further inside have: \
+            "{} within {} px of another region keep {:.0} % of their surface reflection, as much as the pixels further inside have: \
              their colors are mixed",
-            self.pixels.len(),
+            counted(self.pixels.len(), "pixel"),
             self.reach_px,
             100.0 * mean_kept(self)
         )

@@ -3,8 +3,8 @@
 #[cfg(test)]
 use super::hypothesis;
 use super::{Describe, LineObjects, nothing, vector};
-use crate::describe::Names;
 use crate::describe::names::direction;
+use crate::describe::{Names, grouped};
 use crate::trace::{CandidateChosen, CandidateSource, CandidateTested};
 use serde_json::{Value, json};
 
@@ -20,7 +20,7 @@ impl Describe for CandidateTested {
         format!(
             "{} ({} px) as highlight of {}: the lines pass {:.1} counts from one another, at {:.0} % of the matte line: {verdict}; {}",
             names.candidate(self.candidate),
-            self.pixels,
+            grouped(self.pixels as usize),
             names.hypothesis(self.hypothesis),
             self.gap.value,
             self.position_percent,

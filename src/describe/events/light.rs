@@ -101,8 +101,8 @@ impl Describe for VotesCast {
     fn sentence(&self, _names: &Names) -> String {
         let Some(elected) = self.elected else {
             return format!(
-                "small highlights do not vote: fewer than {} pixels have anything to say of the light",
-                self.least_voters
+                "small highlights do not vote: fewer than {} have anything to say of the light",
+                count(self.least_voters, "pixel")
             );
         };
         format!(

@@ -3,9 +3,8 @@
 #[cfg(test)]
 use super::hypothesis;
 use super::{Describe, LineObjects, line, nothing};
-use crate::describe::Names;
-use crate::describe::names::short;
-use crate::describe::names::{count, direction, ordinal};
+use crate::describe::names::{count, direction, ordinal, short};
+use crate::describe::{Names, grouped};
 use crate::trace::{
     Absorbed, GrowthBegan, HypothesisChosen, HypothesisPassedOver, LineRefitted, PassedOver, RegionsMerged,
     SeedsPlaced,
@@ -16,9 +15,10 @@ impl Describe for HypothesisChosen {
     fn sentence(&self, names: &Names) -> String {
         let Self { hypothesis, area, rank, pixels, line, radius } = self;
         format!(
-            "{} starts from area {area}, {} in size: {pixels} unclaimed pixels, direction {}, radius {radius:.1} counts",
+            "{} starts from area {area}, {} in size: {}, direction {}, radius {radius:.1} counts",
             names.hypothesis(*hypothesis),
             ordinal(*rank),
+            count(*pixels, "unclaimed pixel"),
             direction(line.direction.into())
         )
     }
@@ -170,11 +170,17 @@ impl Describe for RegionsMerged {
 /// Why an area did not start a hypothesis, or the hypothesis that it started was taken back.
 pub(in crate::describe) fn passed_over(reason: PassedOver, pixels: u32, least: u32) -> String {
     match reason {
-        PassedOver::TooSmall => format!("{pixels} unclaimed pixels, it needs {least}"),
-        PassedOver::Consumed => format!("{pixels} of its pixels are still free, and it needs {least}"),
+        PassedOver::TooSmall => {
+            format!("{}, it needs {}", count(pixels, "unclaimed pixel"), grouped(least as usize))
+        }
+        PassedOver::Consumed => format!(
+            "{} of its pixels are still free, and it needs {}",
+            grouped(pixels as usize),
+            grouped(least as usize)
+        ),
         PassedOver::FarFromBlack => "its line passes black outside the cylinder's radius".to_owned(),
         PassedOver::NoExtent => "its colors have no extent to fit a line to".to_owned(),
-        PassedOver::Barren => format!("growing from it claimed fewer than {least} pixels"),
+        PassedOver::Barren => format!("growing from it claimed fewer than {}", count(least, "pixel")),
         PassedOver::NoNumberLeft => "there is no number left for another region".to_owned(),
     }
 }

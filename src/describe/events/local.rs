@@ -1,9 +1,9 @@
 //! The local split, where no region explains the pixels (beyond section 6).
 
 use super::{Describe, LineObjects, nothing};
-use crate::describe::Names;
 use crate::describe::names::short;
 use crate::describe::names::{count, percent, signed, tenths};
+use crate::describe::{Names, grouped, grouped_decimals};
 use crate::trace::{
     LocalBegan, LocalStart, PictureOddsFound, PlausibilityTested, RepairTried, RepairVerdict,
 };
@@ -12,14 +12,17 @@ use serde_json::json;
 impl Describe for LocalBegan {
     fn sentence(&self, _names: &Names) -> String {
         let Self { start, pixels, lit, least, .. } = self;
-        let outside = format!("{pixels} of {} lie outside of what holds", count(*lit, "lit pixel"));
+        let all = count(*lit, "lit pixel");
+        let outside = format!("{} of {all} lie outside of what holds", grouped(*pixels as usize));
         match start {
             LocalStart::Begins => {
                 format!("{outside}: they are split by how much paler they are than their hue around them")
             }
             LocalStart::Off if *pixels == 0 => outside,
             LocalStart::Off => format!("{outside}: they keep their colors, as the local split is off"),
-            LocalStart::Few => format!("{outside}, fewer than {least}: they keep their colors"),
+            LocalStart::Few => {
+                format!("{outside}, fewer than {}: they keep their colors", grouped(*least as usize))
+            }
             LocalStart::NoLight => format!("{outside}: they keep their colors, as the light is not known"),
         }
     }
@@ -152,8 +155,9 @@ impl Describe for RepairTried {
                 percent(f64::from(spread.limit))
             ),
             RepairVerdict::TooSmall => format!(
-                "{blob} is not filled: {:.0} highlight pixels lie around it, at least {:.0} are needed",
-                around.value, around.limit
+                "{blob} is not filled: {} highlight pixels lie around it, at least {} are needed",
+                grouped_decimals(around.value.into(), 0),
+                grouped_decimals(around.limit.into(), 0)
             ),
             RepairVerdict::NoRise => format!(
                 "{blob} is not filled: the highlight does not rise towards it, {inner:.1} counts next to it, {outer:.1} farther out"

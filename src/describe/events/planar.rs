@@ -3,8 +3,8 @@
 #[cfg(test)]
 use super::hypothesis;
 use super::{Describe, LineObjects, nothing, vector};
-use crate::describe::Names;
 use crate::describe::names::count;
+use crate::describe::{Names, grouped};
 use crate::trace::{MatteAreasUnited, SliceMade};
 use serde_json::json;
 
@@ -53,9 +53,10 @@ impl Describe for MatteAreasUnited {
     fn sentence(&self, names: &Names) -> String {
         let Self { hypothesis, into, taken_px, area_px } = *self;
         format!(
-            "the matte area of {} is united with {}: {taken_px} of its {} lie in the same matte cylinder",
+            "the matte area of {} is united with {}: {} of its {} lie in the same matte cylinder",
             names.hypothesis(hypothesis),
             names.hypothesis(into),
+            grouped(taken_px as usize),
             count(area_px, "pixel")
         )
     }

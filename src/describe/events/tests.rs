@@ -74,6 +74,19 @@ fn what_an_event_is_about_is_what_its_trace_line_names() {
 }
 
 #[test]
+fn large_numbers_are_in_groups_in_sentences_and_plain_in_trace_lines() {
+    let chosen = trace::HypothesisChosen { pixels: 14_452, ..trace::HypothesisChosen::example() };
+    let sentence = chosen.sentence(&Names::default());
+    assert!(sentence.contains("14\u{2009}452 unclaimed pixels"), "{sentence}");
+    assert_eq!(chosen.line_objects(&Names::default()).values["pixels"], 14_452);
+    let classified =
+        trace::WindowClassified { eigenvalues: [16_256.25, 2.0, -0.1], ..trace::WindowClassified::example() };
+    let sentence = classified.sentence(&Names::default());
+    assert!(sentence.contains("variances 16\u{2009}256.2, 2.0, 0.0 counts"), "{sentence}");
+    assert_eq!(classified.line_objects(&Names::default()).values["eigenvalues"][0], 16_256.25);
+}
+
+#[test]
 fn an_event_on_the_heap_counts_its_structure() {
     for event in examples() {
         let inline = size_of::<Event>();

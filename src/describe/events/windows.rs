@@ -1,9 +1,9 @@
 //! Windows and areas (section 5.2).
 
 use super::{Describe, LineObjects, nothing};
-use crate::describe::Names;
 use crate::describe::names::count;
 use crate::describe::names::short;
+use crate::describe::{Names, grouped, grouped_decimals};
 use crate::trace::{Class, Measured, MergeTried, WindowClassified, WindowsLaid};
 use serde_json::json;
 
@@ -38,7 +38,7 @@ impl Describe for WindowClassified {
         let [a, b, c] = variances(self.eigenvalues);
         let verdict = self.class.map_or("too few for a class", Class::name);
         let held = held(self.chi_square);
-        format!("window {window}, {pixels}, variances {a:.1}, {b:.1}, {c:.1} counts\u{b2}, {held}: {verdict}")
+        format!("window {window}, {pixels}, variances {a}, {b}, {c} counts\u{b2}, {held}: {verdict}")
     }
 
     fn line_objects(&self, _names: &Names) -> LineObjects {
@@ -65,9 +65,10 @@ impl Describe for MergeTried {
     fn sentence(&self, _names: &Names) -> String {
         let Self { into, from, pixels: [a, b], eigenvalues, chi_square, class, union } = self;
         let [x, y, z] = variances(*eigenvalues);
+        let [a, b] = [a, b].map(|&pixels| grouped(pixels as usize));
         let verdict = if class == union { "they merge" } else { "they stay apart" };
         format!(
-            "areas {into} ({a} px) and {from} ({b} px), both {}: variances of the union {x:.1}, {y:.1}, {z:.1} \
+            "areas {into} ({a} px) and {from} ({b} px), both {}: variances of the union {x}, {y}, {z} \
              counts\u{b2}, {}, {}: {verdict}",
             class.name(),
             held(*chi_square),
@@ -108,10 +109,11 @@ impl Describe for MergeTried {
 fn held(chi_square: Measured<f32>) -> String {
     let Measured { value: statistic, limit: threshold } = chi_square;
     let relation = if statistic <= threshold { '\u{2264}' } else { '>' };
-    format!("\u{3c7}\u{b2} {statistic:.1} {relation} {threshold:.1}")
+    let [statistic, threshold] = [statistic, threshold].map(|value| grouped_decimals(value.into(), 1));
+    format!("\u{3c7}\u{b2} {statistic} {relation} {threshold}")
 }
 
-/// Variances for printing: negative values, which come from rounding, are zero.
-pub(in crate::describe) fn variances(eigenvalues: [f32; 3]) -> [f32; 3] {
-    eigenvalues.map(|variance| variance.max(0.0))
+/// Variances as text: negative values, which come from rounding, are zero.
+pub(in crate::describe) fn variances(eigenvalues: [f32; 3]) -> [String; 3] {
+    eigenvalues.map(|variance| grouped_decimals(variance.max(0.0).into(), 1))
 }

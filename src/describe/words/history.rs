@@ -5,6 +5,7 @@ use super::local_history::{surroundings, unfit};
 use super::reason::{NO_VALUE, OUTSIDE_AREA};
 use super::{Names, count, ordinal, percent, signed, won};
 use crate::color::Trial;
+use crate::describe::{grouped, grouped_decimals};
 use crate::reflection::{SliceBound, SliceMiss};
 use crate::trace::{
     Barrier, BorderLimit, Class, CodeInterval, HistoryEntry, HistoryKind, MarkedCluster, MaskVerdict,
@@ -54,8 +55,9 @@ impl Names {
             HistoryKind::Window(story) => window(story),
             HistoryKind::Merging(story) => merging(story),
             HistoryKind::AreaChosen { hypothesis, rank, pixels, radius } => format!(
-                "its area, {} with {pixels} unclaimed pixels, starts {}, radius {radius:.1} counts",
+                "its area, {} with {}, starts {}, radius {radius:.1} counts",
                 ordinal(*rank),
+                count(*pixels, "unclaimed pixel"),
                 self.hypothesis(*hypothesis)
             ),
             HistoryKind::AreaPassedOver { pixels, least, reason } => {
@@ -159,7 +161,7 @@ impl Names {
             Release::Refit { distance, radius } => {
                 format!("{distance:.1} counts from its refitted axis, radius {radius:.1}")
             }
-            Release::Barren { least, .. } => format!("growing claimed fewer than {least} pixels"),
+            Release::Barren { least, .. } => format!("growing claimed fewer than {}", count(least, "pixel")),
             Release::Absorbed { by, highlight_foot: highlight, object_foot: object, gap } => format!(
                 "it is the broad highlight of {}: its line misses black by {highlight:.1} counts (the object's by \
                  {object:.1}), gap {gap:.1}",
@@ -223,7 +225,7 @@ fn window(story: &WindowStory) -> String {
     };
     let tests: Vec<String> = trials.iter().map(|trial| tried(trial, *tail_test)).collect();
     format!(
-        "{place} is a {}: variances {a:.1}, {b:.1}, {c:.1} counts\u{b2} of {}; {}",
+        "{place} is a {}: variances {a}, {b}, {c} counts\u{b2} of {}; {}",
         class.name(),
         count(*pixels, "pixel"),
         tests.join(", ")
@@ -238,20 +240,27 @@ fn tried(trial: &Trial, tail_test: bool) -> String {
         (true, n) => format!("beyond {}", count(n as u64, "direction")),
         (false, n) => format!("direction {}", n + 1),
     };
-    format!("{what} \u{3c7}\u{b2} {:.1} {relation} {:.1}", trial.statistic(), trial.threshold())
+    format!("{what} {}", chi_square(trial, relation))
+}
+
+/// `χ² 95.2 ≤ 123.2`
+fn chi_square(trial: &Trial, relation: char) -> String {
+    let [statistic, threshold] =
+        [trial.statistic(), trial.threshold()].map(|value| grouped_decimals(value, 1));
+    format!("\u{3c7}\u{b2} {statistic} {relation} {threshold}")
 }
 
 fn merging(story: &MergeStory) -> String {
     let MergeStory { tried, joined, pixels, refusal, class } = story;
     let grown = format!(
-        "its area, a {}, grows to {pixels} pixels: {joined} of {} kept the class",
+        "its area, a {}, grows to {}: {} of {} kept the class",
         class.name(),
+        count(*pixels, "pixel"),
+        grouped(*joined as usize),
         count(*tried, "union")
     );
     let Some(refusal) = refusal else { return grown };
-    let test = refusal.trial.map_or_else(String::new, |trial| {
-        format!(" (\u{3c7}\u{b2} {:.1} > {:.1})", trial.statistic(), trial.threshold())
-    });
+    let test = refusal.trial.map_or_else(String::new, |trial| format!(" ({})", chi_square(&trial, '>')));
     let union = refusal.union.name();
     let union = if refusal.union == Class::Point { "only a point" } else { union };
     format!(

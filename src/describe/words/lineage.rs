@@ -2,13 +2,16 @@
 
 use super::super::events::Describe;
 use super::{Names, count};
+use crate::describe::grouped;
 use crate::trace::{Ancestor, Birth, HypothesisStory, JoinedHow};
 
 impl Names {
     /// How a hypothesis began, and how the hypothesis became part of another one in a [`crate::trace::lineage()`].
     pub fn ancestor(&self, ancestor: &Ancestor) -> String {
         let born = match ancestor.birth {
-            Birth::Area { chosen, .. } => format!("from area {} of {} pixels", chosen.area, chosen.pixels),
+            Birth::Area { chosen, .. } => {
+                format!("from area {} of {}", chosen.area, count(chosen.pixels, "pixel"))
+            }
             Birth::Part { of, pixels, .. } => {
                 format!("separated from {}: {}", self.hypothesis(of), count(pixels, "pixel"))
             }
@@ -29,7 +32,7 @@ impl Names {
                 format!("; one line with it: {angle_deg:.1}\u{b0} apart, rms distance {rms:.1} counts")
             }
             JoinedHow::United { taken_px, area_px } => {
-                format!("; a single matte cluster with it: {taken_px} of {}", count(area_px, "pixel"))
+                format!("; a single matte cluster with it: {} of {}", grouped(taken_px as usize), count(area_px, "pixel"))
             }
             JoinedHow::Whole => "; it was separated from this one".to_owned(),
         });

@@ -143,7 +143,7 @@ pub fn mark_at_pointer(
     let Some(Item::Pixel(pixel)) = state.hover else { return };
     let Some(mark) = state.document.selection.named.at(pixel.index()) else { return };
     let square = place.screen_rect_of(place.square_of(pixel));
-    let text = format!("{}: {} px", mark.name, crate::view::grouped(mark.pixels));
+    let text = format!("{}: {} px", mark.name, crate::describe::grouped(mark.pixels));
     let area = text_box(painter, palette, square.center() + vec2(12.0, 14.0), Align2::LEFT_TOP, &text);
     let label = ui.interact(area, ui.scope_id().with("mark at the pointer"), egui::Sense::empty());
     label.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Label, true, text.clone()));

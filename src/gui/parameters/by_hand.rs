@@ -23,7 +23,7 @@ pub fn given_by_hand(ui: &mut Ui, cx: &mut PanelContext) {
         match area {
             Some(area) => {
                 let pixels = area.count();
-                ui.label(format!("{} px", crate::view::grouped(pixels)));
+                ui.label(format!("{} px", crate::describe::grouped(pixels)));
             }
             // A narrow panel has room for the button only.
             None if narrow => {}

@@ -218,7 +218,7 @@ fn table_cell(
             widgets::chip(ui, palette, color, &format!("color of hypothesis {}", row_of.hypothesis));
             plain(ui, row_of.hypothesis.to_string());
         }),
-        SortKey::Pixels => number(row, crate::view::grouped(row_of.pixels as usize)),
+        SortKey::Pixels => number(row, crate::describe::grouped(row_of.pixels as usize)),
         SortKey::Direction => {
             cell(row, |ui| vector(ui, palette, "color of the line", row_of.direction, shows_numbers));
         }
@@ -258,7 +258,7 @@ fn windows(ui: &mut Ui, palette: &ThemeColors, counts: &WindowCounts) {
             None => ui.label(""),
         };
         ui.label(name).on_hover_text(tip);
-        widgets::number(ui, palette, 70.0, &crate::view::grouped(count), "");
+        widgets::number(ui, palette, 70.0, &crate::describe::grouped(count), "");
         ui.end_row();
     };
     egui::Grid::new("windows so far").num_columns(3).spacing([6.0, 2.0]).show(ui, |ui| {

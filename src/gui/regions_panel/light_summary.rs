@@ -89,7 +89,7 @@ fn second_lamp(ui: &mut Ui, cx: &PanelContext, findings: &LightFindings) {
     };
     ui.label(RichText::new("second lamp").color(cx.palette.secondary)).on_hover_text(tip);
     vector(ui, cx.palette, "color of the second lamp", Some(second.direction), true);
-    let objects = crate::view::counted(second.regions, "object");
+    let objects = crate::describe::counted(second.regions, "object");
     let from = match second.interval_deg {
         Some(interval_deg) => format!("from {objects}, \u{b1}{interval_deg:.1}\u{b0}"),
         None => format!("given, lights {objects}"),
@@ -116,7 +116,7 @@ fn ambient(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot) {
 
 /// What the light was estimated from, and its interval, degrees.
 fn basis_text(light: &Illuminant, findings: &LightFindings) -> String {
-    let from = |what: &str| crate::view::counted(light.objects, what);
+    let from = |what: &str| crate::describe::counted(light.objects, what);
     let from = match findings.basis {
         LightBasis::Given => return "given".to_owned(),
         LightBasis::Average => format!("average of {}", from("highlight")),

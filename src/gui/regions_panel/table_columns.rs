@@ -48,7 +48,7 @@ pub fn widest(ui: &Ui, texts: impl Iterator<Item = String>) -> f32 {
 
 /// Width of a column in which none of these numbers is cut, points.
 pub fn count_width(ui: &Ui, counts: impl Iterator<Item = usize>) -> f32 {
-    widest(ui, counts.max().map(crate::view::grouped).into_iter())
+    widest(ui, counts.max().map(crate::describe::grouped).into_iter())
 }
 
 #[cfg(test)]

@@ -1,9 +1,9 @@
 //! The tooltip of the track.
 
 use crate::describe::Names;
+use crate::describe::grouped;
 use crate::trace::{Topic, Trace};
 use crate::view::RegionNames;
-use crate::view::grouped;
 
 /// Lines of text about a step: stage and pass, block, and the decision.
 pub fn lines(trace: &Trace, regions: &RegionNames, names: &Names, step: usize) -> Vec<String> {

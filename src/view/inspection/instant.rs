@@ -2,9 +2,10 @@
 
 use super::item::left_out;
 use super::{Inspection, Tone};
+use crate::describe::counted;
 use crate::raster::{HypothesisId, PixelIndex, RegionId};
 use crate::trace::{Class, PixelKind, Replay};
-use crate::view::{HypothesisRow, Item, PixelReading, RegionNames, ResultSnapshot, counted, hypothesis_rows};
+use crate::view::{HypothesisRow, Item, PixelReading, RegionNames, ResultSnapshot, hypothesis_rows};
 
 /// The findings about an item at the cursor; none where the photograph has no such item. `shown`: the result whose trace is replayed, for
 /// the colors of the photograph.

@@ -4,13 +4,13 @@ use super::fits::region_tests;
 use super::step::{holds_verdict, window_tests};
 use super::{Inspection, ThresholdTest, Tone};
 use crate::color::vec3;
-use crate::describe::{reason_label, reason_meaning};
+use crate::describe::{counted, grouped, reason_label, reason_meaning};
 use crate::intrinsic::Reason;
 use crate::params::Baseline;
 use crate::raster::{Mask, PixelIndex, RegionId, UNASSIGNED};
 use crate::trace::{Class, Event, Measured};
 use crate::view::shapes::hypothesis;
-use crate::view::{Item, OwnersAtCursor, PixelAmounts, ResultSnapshot, counted, grouped, reason_entry};
+use crate::view::{Item, OwnersAtCursor, PixelAmounts, ResultSnapshot, reason_entry};
 
 /// The findings about an item; none where the result has no such item.
 pub fn inspect_item(shown: &ResultSnapshot, item: Item) -> Option<Inspection> {

@@ -4,13 +4,13 @@ use super::fits::fit_tests;
 use super::{Inspection, Limits, ThresholdTest, Tone, candidate_tests};
 use crate::color::vec3;
 use crate::describe::Names;
+use crate::describe::grouped;
 use crate::raster::{HypothesisId, PixelIndex, Raster};
 use crate::trace::{
     Class, Contest, Event, FeatureVerdict, HistogramsSearched, HypothesisPassedOver, LocalStart, Measure,
     Measured, MergeTried, Pass, PassedOver, RepairTried, RepairVerdict, Replay, Stage, Step,
     WindowClassified,
 };
-use crate::view::grouped;
 
 /// The findings about the step taken last; none before the first step. `colors`: those of the working picture, counts.
 pub fn inspect_step(replay: &Replay, names: &Names, colors: &Raster<[f32; 3]>) -> Option<Inspection> {

@@ -1,5 +1,6 @@
 //! A measured value beside its limits, and the place of both on a bar.
 
+use crate::describe::grouped_decimals;
 use crate::trace::Measured;
 
 /// The limits of a value.
@@ -114,7 +115,7 @@ fn number(value: f64, decimals: usize) -> String {
     if value.is_infinite() {
         return if value > 0.0 { "\u{221e}".to_owned() } else { "\u{2212}\u{221e}".to_owned() };
     }
-    let text = format!("{:.decimals$}", value.abs());
+    let text = grouped_decimals(value.abs(), decimals);
     let is_zero = text.chars().all(|letter| matches!(letter, '0' | '.'));
     if value < 0.0 && !is_zero { format!("\u{2212}{text}") } else { text }
 }
