@@ -58,9 +58,14 @@ pub fn capitalized(word: &str) -> String {
     letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
 
-/// A square of 12 points filled with a color, with an outline; `name` is its accessible name.
+/// Side of the square that shows a color, points.
+pub const CHIP_PT: f32 = 12.0;
+/// Gap between such a square and the color's name, points.
+const CHIP_GAP_PT: f32 = 4.0;
+
+/// A square filled with a color, with an outline; `name` is its accessible name.
 pub fn chip(ui: &mut Ui, palette: &ThemeColors, color: Color32, name: &str) -> Response {
-    let (rect, response) = ui.allocate_exact_size(vec2(12.0, 12.0), Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(egui::Vec2::splat(CHIP_PT), Sense::hover());
     paint_chip(ui.painter(), rect, color, palette);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Label, true, name));
     response
@@ -70,11 +75,12 @@ pub fn chip(ui: &mut Ui, palette: &ThemeColors, color: Color32, name: &str) -> R
 pub fn legend_entry(ui: &mut Ui, palette: &ThemeColors, color: Color32, name: &str) -> Response {
     let galley =
         ui.painter().layout_no_wrap(name.to_owned(), FontId::proportional(SMALL_PT), palette.secondary);
-    let size = vec2(16.0 + galley.size().x, galley.size().y.max(12.0));
+    let size = vec2(CHIP_PT + CHIP_GAP_PT + galley.size().x, galley.size().y.max(CHIP_PT));
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    let square = egui::Rect::from_center_size(rect.left_center() + vec2(6.0, 0.0), vec2(12.0, 12.0));
+    let center = rect.left_center() + vec2(CHIP_PT / 2.0, 0.0);
+    let square = egui::Rect::from_center_size(center, egui::Vec2::splat(CHIP_PT));
     paint_chip(ui.painter(), square, color, palette);
-    let corner = rect.left_center() + vec2(16.0, -galley.size().y / 2.0);
+    let corner = rect.left_center() + vec2(CHIP_PT + CHIP_GAP_PT, -galley.size().y / 2.0);
     ui.painter().galley(corner, galley, palette.secondary);
     response.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::Label, true, name));
     response

@@ -144,8 +144,8 @@ pub fn legend(
             let text = widgets::with_subscripts(&format!("{}{value}", curve.name), SMALL_PT, tone);
             // Color and name have a space of their own, so that a wrapped row does not part them.
             let name_pt = ui.painter().layout_job(text.clone()).size().x;
-            let space =
-                vec2(12.0 + ui.spacing().item_spacing.x + name_pt.ceil(), ui.spacing().interact_size.y);
+            let width_pt = widgets::CHIP_PT + ui.spacing().item_spacing.x + name_pt.ceil();
+            let space = vec2(width_pt, ui.spacing().interact_size.y);
             let entry = ui.allocate_ui_with_layout(space, Layout::left_to_right(Align::Center), |ui| {
                 widgets::chip(ui, palette, color, curve.name);
                 ui.add(egui::Button::new(text).frame(false))
