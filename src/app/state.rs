@@ -58,6 +58,8 @@ pub struct State {
     pub recent: Vec<PathBuf>,
     /// Number of the newest analysis request.
     pub generation: u64,
+    /// Whether it was told that changed parameters stay in force for the photographs that are opened next.
+    pub(super) told_of_parameters: bool,
     /// Number of notices so far, those dismissed included.
     pub(super) notices_so_far: u64,
     /// The workspace whose photograph is being read.

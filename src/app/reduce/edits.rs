@@ -7,17 +7,36 @@ use crate::raster::{Mask, Raster};
 use crate::view::Selection;
 use std::sync::Arc;
 
-/// The notice about parameters of the photograph before; it goes when all parameters have their defaults.
-pub(super) const PARAMETERS_STAY: &str =
-    "parameters that were changed for the photograph before stay in force; Reset takes the defaults";
+/// The notice about parameters of an earlier photograph; it goes when all parameters have their defaults.
+const PARAMETERS_STAY: &str =
+    "parameters that were changed for an earlier photograph stay in force; Reset takes the defaults";
 
 /// Changes the document.
 pub(super) fn reduce(state: &mut State, command: Edit) -> Vec<Effect> {
     let effects = change(state, command);
-    if state.document.params == Params::of(state.document.params.method) {
-        state.notices.retain(|notice| notice.text != PARAMETERS_STAY);
-    }
+    forget_defaults(state);
     effects
+}
+
+/// Whether a parameter differs from the method's default.
+fn is_changed(params: &Params) -> bool {
+    *params != Params::of(params.method)
+}
+
+/// Takes the notice about parameters of an earlier photograph away, where none differs from its default any more.
+pub(super) fn forget_defaults(state: &mut State) {
+    if !is_changed(&state.document.params) {
+        state.notices.retain(|notice| notice.text != PARAMETERS_STAY);
+        state.told_of_parameters = false;
+    }
+}
+
+/// Tells that the parameters of an earlier photograph stay in force, where one differs from its default: once, until all have
+/// their defaults again.
+pub(super) fn tell_of_parameters(state: &mut State) {
+    if is_changed(&state.document.params) && !std::mem::replace(&mut state.told_of_parameters, true) {
+        state.notify_of_files(Severity::Warning, PARAMETERS_STAY.to_owned());
+    }
 }
 
 fn change(state: &mut State, command: Edit) -> Vec<Effect> {

@@ -1,6 +1,6 @@
 //! The reducer of the change between open photographs.
 
-use super::edits::analyze;
+use super::edits::{analyze, forget_defaults};
 use crate::app::photographs::MOST_OTHERS;
 use crate::app::{Effect, OpenPhotograph, State, Switching};
 
@@ -76,5 +76,6 @@ fn show(state: &mut State, photograph: OpenPhotograph) -> Vec<Effect> {
     state.explained_pixel = photograph.explained_pixel;
     state.awaited = photograph.awaited;
     state.leave_missing_layers();
+    forget_defaults(state);
     analyze(state)
 }

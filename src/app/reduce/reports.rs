@@ -1,7 +1,7 @@
 //! The reducer of the reports of workers.
 
 use super::debugger::take_trace;
-use super::edits::{PARAMETERS_STAY, analyze, edit_params};
+use super::edits::{analyze, edit_params, forget_defaults, tell_of_parameters};
 use super::elsewhere::{lack_elsewhere, take_elsewhere, warning_of, with_unused_truth};
 use super::photographs::keep_open;
 use super::questions::take_progress;
@@ -11,7 +11,7 @@ use crate::app::photographs::MOST_OTHERS;
 use crate::app::report::{Report, Work};
 use crate::app::state::Restoring;
 use crate::app::{Document, Effect, Preview, Severity, State, ViewSettings, Workspace};
-use crate::params::{IlluminantSetting, Params};
+use crate::params::IlluminantSetting;
 use crate::view::{
     ElsewhereKind, ElsewherePaths, Item, MaskRuns, NamedMark, NamedMarks, Origin, Picture, ProfileLine,
     ResultSnapshot,
@@ -211,10 +211,10 @@ fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: &ElsewhereP
     let warnings = picture.photo.warnings.iter().map(|warning| warning_of(&picture, warning));
     let warnings: Vec<String> = warnings.collect();
     let restored = state.restoring.take().filter(|restoring| restoring.workspace.origin == picture.origin);
-    let had_picture = state.picture.is_some();
     let params = state.document.params;
     // A photograph that is read again, with another encoding or by a workspace, replaces itself.
-    if state.picture.as_ref().is_some_and(|shown| shown.origin != picture.origin) {
+    let is_other = state.picture.as_ref().is_some_and(|shown| shown.origin != picture.origin);
+    if is_other {
         keep_open(state);
     }
     let earlier = state.others.iter().position(|other| other.picture.origin == picture.origin);
@@ -247,9 +247,10 @@ fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: &ElsewhereP
         saved = workspace.elsewhere.except(elsewhere);
         restore_workspace(state, *workspace);
         state.workspace_path = Some(path);
-    } else if had_picture && state.document.params != Params::of(state.document.params.method) {
-        state.notify(Severity::Warning, PARAMETERS_STAY.to_owned());
+    } else if is_other {
+        tell_of_parameters(state);
     }
+    forget_defaults(state);
     for kind in ElsewhereKind::ALL {
         if elsewhere.get(kind).or(saved.get(kind)).is_none() {
             state.leave_layers_of(kind);

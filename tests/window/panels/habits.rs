@@ -64,7 +64,7 @@ fn the_notices_of_a_photograph_end_with_it() {
 }
 
 #[test]
-fn parameters_that_stay_in_force_are_named() {
+fn parameters_that_stay_in_force_are_named_once() {
     let mut window = tiny_window();
     open_sample(&mut window, sample::NAME);
     assert!(state(&window).notices.is_empty(), "defaults need no word");
@@ -73,6 +73,16 @@ fn parameters_that_stay_in_force_are_named() {
     open_sample(&mut window, sample::SAMPLES[1].name);
     window.run_steps(3);
     assert!(says(&window, "stay in force"));
+    open_sample(&mut window, sample::SAMPLES[2].name);
+    assert!(says(&window, "stay in force"), "a photograph that follows at once does not hide it");
+    click(&mut window, Role::Button, "Dismiss");
+    open_sample(&mut window, sample::SAMPLES[3].name);
+    assert!(!says(&window, "stay in force"), "it was told");
+    choose(&mut window, "Analyze", "Reset parameters");
+    crate::window::named(&window, Role::Slider, "camera noise \u{3c3}0").set_value_accesskit(4.0);
+    window.run_steps(3);
+    open_sample(&mut window, sample::NAME);
+    assert!(says(&window, "stay in force"), "parameters were changed anew");
     choose(&mut window, "Analyze", "Reset parameters");
     assert!(!says(&window, "stay in force"), "none is changed any more");
 }
