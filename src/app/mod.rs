@@ -40,7 +40,7 @@ pub use command::{Combine, Command, Edit, JobCommand, NamedMarkEdit, ViewCommand
 pub use command_line::analyze_call;
 pub use debugger::{
     Breakpoint, CandidateCheck, Condition, DebugCommand, DebugSettings, Debugger, Difference, Direction,
-    Goal, SavedClass, StepUnit,
+    Goal, Missed, SavedClass, StepUnit,
 };
 pub use document::{Document, Gesture, History};
 pub use document_change::document_change;

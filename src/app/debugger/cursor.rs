@@ -72,11 +72,8 @@ pub fn place_after_unit(trace: &Trace, at: usize, unit: StepUnit, direction: Dir
         (StepUnit::Step | StepUnit::Ring, Direction::Forward) => (at + 1).min(len),
         (StepUnit::Step | StepUnit::Ring, Direction::Back) => at.saturating_sub(1),
         (StepUnit::Event, direction) => next_event(trace, at, direction),
-        (StepUnit::Hypothesis, direction) => {
-            let spans = trace.blocks().map(|block| block.steps);
-            nearest_edge(spans, at, direction)
-                .unwrap_or_else(|| place_after_unit(trace, at, StepUnit::Stage, direction))
-        }
+        (StepUnit::Hypothesis, direction) => hypothesis_edge(trace, at, direction)
+            .unwrap_or_else(|| place_after_unit(trace, at, StepUnit::Stage, direction)),
         (StepUnit::Pass, direction) => {
             let passes = trace.passes().map(|span| span.steps);
             let stages = trace.stages().map(|(_, steps)| steps);
@@ -86,6 +83,11 @@ pub fn place_after_unit(trace: &Trace, at: usize, unit: StepUnit, direction: Dir
             nearest_edge(trace.stages().map(|(_, steps)| steps), at, direction).unwrap_or(at)
         }
     }
+}
+
+/// The nearest edge of a hypothesis in a direction; none where no hypothesis is left in it.
+pub fn hypothesis_edge(trace: &Trace, at: usize, direction: Direction) -> Option<usize> {
+    nearest_edge(trace.blocks().map(|block| block.steps), at, direction)
 }
 
 /// The nearest end after `at`, or the nearest beginning before it.

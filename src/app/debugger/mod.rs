@@ -5,12 +5,14 @@ mod breakpoint;
 mod cursor;
 #[cfg(test)]
 mod instant_tests;
+mod missed;
 mod moves;
 #[cfg(test)]
 mod tests;
 
 pub use breakpoint::{Breakpoint, CandidateCheck, Condition, SavedClass};
 pub use cursor::{Direction, Goal, StepUnit};
+pub use missed::Missed;
 
 use anchor::{Anchor, best_overlaps};
 
@@ -37,6 +39,8 @@ pub struct Debugger {
     pub playing: Option<Direction>,
     /// The breakpoint that stopped the cursor last: its index in [`DebugSettings::breakpoints`].
     pub stopped_by: Option<usize>,
+    /// What the last move of the cursor did not find; none where the move ended where it was to end.
+    pub missed: Option<Missed>,
     /// The first step at which the trace differs from the pinned result's trace, once the two were compared.
     pub difference: Option<Difference>,
     /// The regions of the result whose trace is replayed.

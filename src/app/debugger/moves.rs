@@ -1,8 +1,8 @@
 //! Moves of the debugger's cursor, and playing.
 
 use super::breakpoint::next_stop;
-use super::cursor::{next_place, place_after_unit};
-use super::{Breakpoint, DebugSettings, Debugger, Direction, Goal, StepUnit};
+use super::cursor::{hypothesis_edge, next_place, place_after_unit};
+use super::{Breakpoint, DebugSettings, Debugger, Direction, Goal, Missed, StepUnit};
 use crate::trace::Replay;
 use crate::view::rings;
 use std::sync::Arc;
@@ -21,9 +21,19 @@ impl Debugger {
         self.replay.as_ref().map_or(0, |replay| replay.trace().len())
     }
 
-    /// Ends playing, and forgets the breakpoint that stopped the cursor.
+    /// Ends playing, and forgets how the last move ended.
     fn stop_playing(&mut self) {
-        (self.playing, self.play_until, self.unit_fraction, self.stopped_by) = (None, None, 0.0, None);
+        (self.playing, self.play_until, self.unit_fraction) = (None, None, 0.0);
+        (self.stopped_by, self.missed) = (None, None);
+    }
+
+    /// The end of the trace that the cursor would leave by a move in a direction; none inside the trace.
+    fn beyond_end(&self, direction: Direction) -> Option<Missed> {
+        let is_at_end = match direction {
+            Direction::Forward => self.at() >= self.len(),
+            Direction::Back => self.at() == 0,
+        };
+        is_at_end.then_some(Missed::Beyond(direction))
     }
 
     /// Moves to `n` and ends playing.
@@ -76,31 +86,39 @@ impl Debugger {
         self.stop_playing();
         let at = self.at();
         let next = self.trace().and_then(|trace| trace.blocks().find(|block| block.steps.start >= at));
-        let Some(block) = next else { return };
+        let Some(block) = next else {
+            self.missed = Some(Missed::Into);
+            return;
+        };
         self.seek(block.steps.start + 1);
         (self.playing, self.play_until) = (Some(Direction::Forward), Some(block.steps.end));
     }
 
-    /// Moves to the next step that fits `goal`; to the end of the trace in that direction where none does.
+    /// Moves to the next step that fits `goal`; to the end of the trace in that direction where none does. Without an enabled
+    /// breakpoint the cursor does not run to one.
     pub(in crate::app) fn run_to(&mut self, goal: Goal, direction: Direction, breakpoints: &[Breakpoint]) {
         self.stop_playing();
         let Some(replay) = &self.replay else { return };
-        let end = match direction {
-            Direction::Forward => self.len(),
-            Direction::Back => 0,
+        let lacks_breakpoint =
+            (goal == Goal::Breakpoint).then(|| Missed::of_breakpoints(breakpoints)).flatten();
+        if let Some(missed) = lacks_breakpoint.or_else(|| self.beyond_end(direction)) {
+            self.missed = Some(missed);
+            return;
+        }
+        let end = match (goal, direction) {
+            (Goal::StepCount(n), _) => n.min(self.len()),
+            (_, Direction::Forward) => self.len(),
+            (_, Direction::Back) => 0,
         };
-        let last = match goal {
-            Goal::Breakpoint => Some(end),
-            Goal::StepCount(n) => Some(n.min(self.len())),
-            _ => None,
-        };
-        if let Some(end) = last {
-            let stop = next_stop(replay, end, breakpoints);
-            self.seek(stop.map_or(end, |stop| stop.0));
-            self.stopped_by = stop.map(|stop| stop.1);
+        let (place, stopped_by) = if matches!(goal, Goal::Breakpoint | Goal::StepCount(_)) {
+            next_stop(replay, end, breakpoints).unzip()
         } else {
-            let n = next_place(replay.trace(), replay.at(), goal, direction);
-            self.seek(n.unwrap_or(end));
+            (next_place(replay.trace(), replay.at(), goal, direction), None)
+        };
+        self.seek(place.unwrap_or(end));
+        self.stopped_by = stopped_by;
+        if place.is_none() && !matches!(goal, Goal::StepCount(_)) {
+            self.missed = Some(Missed::Goal(goal, direction));
         }
     }
 
@@ -115,8 +133,17 @@ impl Debugger {
 
     /// Moves the cursor by one unit and ends playing.
     pub(in crate::app) fn step(&mut self, unit: StepUnit, direction: Direction) {
+        let missed = self.beyond_end(direction).or_else(|| self.missed_unit(unit, direction));
         let n = self.place_after_unit(self.at(), unit, direction);
         self.stop_and_seek(n);
+        self.missed = missed;
+    }
+
+    /// The unit whose edge a move does not find, and that the edge of a longer unit stands for.
+    fn missed_unit(&self, unit: StepUnit, direction: Direction) -> Option<Missed> {
+        let trace = self.trace().filter(|_| unit == StepUnit::Hypothesis)?;
+        let is_missed = hypothesis_edge(trace, self.at(), direction).is_none();
+        is_missed.then_some(Missed::Hypothesis(direction))
     }
 
     /// Moves to the opposite end of the trace, if the cursor has reached the end that it plays towards.

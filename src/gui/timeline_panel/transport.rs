@@ -11,7 +11,7 @@ use crate::gui::glossary::Term;
 use crate::gui::move_cursor::move_cursor;
 use crate::gui::shortcuts::keys_of;
 use crate::gui::theme::{BODY_PT, SMALL_PT, heading_font};
-use crate::gui::widgets::keep_unless_edited;
+use crate::gui::widgets::{capitalized, keep_unless_edited};
 use crate::trace::{Replay, Step};
 use crate::view::{Tone, step_verdict};
 use Direction::{Back, Forward};
@@ -98,8 +98,9 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, names: &Names) 
             ui.allocate_ui_with_layout(size, layout, |ui| step_field(ui, cx, replay, is_narrow));
             let beside = !has_two_rows || ui.available_size_before_wrap().x >= SENTENCE_PT;
             // At the result the sentence tells no verdict: a rest of it would only be cut off.
-            let is_needed =
-                cx.state.debugger.stopped().is_some() || ui.available_size_before_wrap().x >= SENTENCE_PT;
+            let debugger = &cx.state.debugger;
+            let tells = debugger.stopped().is_some() || debugger.missed.is_some();
+            let is_needed = tells || ui.available_size_before_wrap().x >= SENTENCE_PT;
             if beside && is_needed {
                 sentence(ui, cx, replay, names);
             }
@@ -273,9 +274,34 @@ fn step_field(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, is_narrow: bo
     }
 }
 
-/// Shows the state of the cursor (playing, stopped) and a sentence about the last step.
+/// Shows the state of the cursor (playing, stopped), or what its last move did not find, and a sentence about the last step.
 fn sentence(ui: &mut Ui, cx: &PanelContext, replay: &Replay, names: &Names) {
     let debugger = &cx.state.debugger;
+    let text = match replay.last() {
+        Some(step) => names.step(&step),
+        None => "nothing is decided yet".to_owned(),
+    };
+    // The sentence is truncated where it does not fit, as the space below belongs to the track; the verdict never is.
+    let size = vec2(ui.available_size_before_wrap().x.max(1.0), ui.spacing().interact_size.y);
+    ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
+        status(ui, cx);
+        ui.add_space(6.0);
+        if let Some(step) = replay.last().filter(|_| debugger.stopped().is_some()) {
+            verdict(ui, cx, &step);
+        }
+        ui.add(Label::new(&text).truncate().show_tooltip_when_elided(false)).on_hover_text(&text)
+    });
+}
+
+/// Shows the state of the cursor in a word, or what its last move did not find.
+fn status(ui: &mut Ui, cx: &PanelContext) {
+    let debugger = &cx.state.debugger;
+    if let Some(missed) = debugger.missed {
+        let text = capitalized(&missed.text());
+        let label = Label::new(RichText::new(&text).size(SMALL_PT).color(cx.palette.warning));
+        ui.add(label.truncate().show_tooltip_when_elided(false)).on_hover_text(text);
+        return;
+    }
     let stale = cx.state.newest.as_ref().is_some_and(|newest| newest.generation != debugger.generation);
     let (status, tone) = match (debugger.playing, debugger.stopped_by) {
         (Some(Forward), _) => ("playing".to_owned(), cx.palette.accent),
@@ -285,20 +311,7 @@ fn sentence(ui: &mut Ui, cx: &PanelContext, replay: &Replay, names: &Names) {
         (None, None) if debugger.stopped().is_none() => ("result".to_owned(), cx.palette.secondary),
         (None, None) => ("stopped".to_owned(), cx.palette.secondary),
     };
-    let text = match replay.last() {
-        Some(step) => names.step(&step),
-        None => "nothing is decided yet".to_owned(),
-    };
-    // The sentence is truncated where it does not fit, as the space below belongs to the track; the verdict never is.
-    let size = vec2(ui.available_size_before_wrap().x.max(1.0), ui.spacing().interact_size.y);
-    ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
-        ui.add(Label::new(RichText::new(status).size(SMALL_PT).color(tone)).extend());
-        ui.add_space(6.0);
-        if let Some(step) = replay.last().filter(|_| debugger.stopped().is_some()) {
-            verdict(ui, cx, &step);
-        }
-        ui.add(Label::new(&text).truncate().show_tooltip_when_elided(false)).on_hover_text(&text)
-    });
+    ui.add(Label::new(RichText::new(status).size(SMALL_PT).color(tone)).extend());
 }
 
 /// Shows the verdict of a step, which is never cut off.

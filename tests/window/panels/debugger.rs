@@ -422,10 +422,41 @@ fn a_narrow_window_clips_nothing() {
 }
 
 #[test]
+fn a_move_that_finds_nothing_says_so_in_the_timeline() {
+    let mut window = tiny_window();
+    let end = trace(&window).len();
+    plain(&mut window, Key::ArrowRight);
+    assert!(says(&window, "Nothing follows the result") && cursor(&window) == end);
+    plain(&mut window, Key::Enter);
+    assert!(says(&window, "No hypothesis follows: the cursor stays"));
+    plain(&mut window, Key::Home);
+    assert!(!says(&window, "No hypothesis follows"), "the next move has an answer of its own");
+    plain(&mut window, Key::Comma);
+    assert!(says(&window, "Nothing comes before the beginning"));
+    plain(&mut window, Key::N);
+    assert!(says(&window, "No breakpoint is set: add one in Breakpoints") && cursor(&window) == 0);
+    let last = trace(&window).blocks().last().unwrap().steps.end;
+    seek(&mut window, last);
+    press(&mut window, Modifiers::SHIFT, Key::ArrowRight);
+    assert!(says(&window, "No hypothesis follows: at the end of the stage") && cursor(&window) > last);
+    let breakpoint = |enabled| Breakpoint { enabled, condition: Condition::HypothesisRejected };
+    settings(&mut window, |settings| settings.breakpoints = vec![breakpoint(false)]);
+    plain(&mut window, Key::N);
+    assert!(says(&window, "Every breakpoint is off") && cursor(&window) < end);
+    settings(&mut window, |settings| settings.breakpoints = vec![breakpoint(true)]);
+    plain(&mut window, Key::N);
+    assert!(says(&window, "No stop at a breakpoint follows: at the result") && cursor(&window) == end);
+}
+
+#[test]
 fn run_to_a_goal_that_is_not_there_ends_at_the_end() {
     let mut window = tiny_window();
-    plain(&mut window, Key::Home);
-    let goal = Command::Debug(DebugCommand::RunTo(Goal::Breakpoint, Direction::Forward));
+    plain(&mut window, Key::End);
+    let last = trace(&window).blocks().last().unwrap().steps.end;
+    seek(&mut window, last);
+    let goal = Command::Debug(DebugCommand::RunTo(Goal::Kind(Kind::Window), Direction::Forward));
     apply(&mut window, goal);
     assert_eq!(cursor(&window), trace(&window).len());
+    let missed = format!("No step \u{201c}{}\u{201d} follows: at the result", Kind::Window.name());
+    assert!(says(&window, &missed), "{missed}");
 }
