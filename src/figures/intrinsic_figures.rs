@@ -76,7 +76,7 @@ pub fn surface(scene: &Scene) -> Figure {
         counterpart: "color figure 9",
         content,
         caption: format!(
-            "The highlights alone. {} of the pixels in regions lie nearer to a highlight line than to their matte line; the largest amount \
+            "The highlights alone. {} of the pixels in regions lie nearer to a highlight line than to their matte line, or are clipped or bloomed; the largest amount \
              in a band is {largest:.0} counts. {}",
             percent(counts.highlight + counts.restored + counts.lost, counts.in_regions),
             scene.exposure_sentence(),

@@ -147,7 +147,7 @@ pub fn table(scene: &Scene, fits: &[Option<[f64; 3]>], counterpart: &'static str
                 grouped(region.pixels),
                 shown_vector(Some(region.body)),
                 shown_vector(fit),
-                grouped(region.highlight_pixels),
+                region.surface.map_or_else(|| "\u{2013}".to_owned(), |_| grouped(region.highlight_pixels)),
             ];
             if has_truth {
                 cells.push(
@@ -176,7 +176,10 @@ pub fn table(scene: &Scene, fits: &[Option<[f64; 3]>], counterpart: &'static str
 
 fn table_note(scene: &Scene, lights: &Lights, has_truth: bool) -> String {
     let left_out = scene.report.regions.len().saturating_sub(MOST_ROWS);
-    let mut parts = vec!["Highlight: pixels nearer to a highlight line than to the matte line.".to_owned()];
+    let mut parts = vec![
+        "Highlight: pixels nearer to a highlight line than to the matte line, or clipped or bloomed."
+            .to_owned(),
+    ];
     if left_out > 0 {
         parts.push(format!("{} left out.", counted(left_out, "smaller region is", "smaller regions are")));
     }

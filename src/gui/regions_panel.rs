@@ -58,7 +58,7 @@ const COLUMNS: [(SortKey, &str, f32, &str); 8] = [
         SortKey::Highlight,
         "highlight",
         58.0,
-        "Pixels nearer to the highlight line than to the matte line, restored ones included (section 6).",
+        "Pixels nearer to the highlight line than to the matte line, clipped and bloomed ones included (section 6).",
     ),
     (
         SortKey::Rms,
@@ -211,7 +211,7 @@ impl RegionsPanel {
             SortKey::Body => hue_rad(region.body),
             SortKey::Surface => region.surface.map_or(-10.0, hue_rad),
             SortKey::Angle => region.angle_deg.unwrap_or(-1.0),
-            SortKey::Highlight => region.highlight_pixels as f64,
+            SortKey::Highlight => region.highlights().unwrap_or(0) as f64,
             SortKey::Rms => region.fit_rms_counts,
             SortKey::Warnings => region.warnings.len() as f64,
         };
@@ -233,7 +233,7 @@ fn column_widths(ui: &Ui, regions: &[RegionReflection]) -> Vec<TableColumn<SortK
             SortKey::Pixels => width.max(count_width(ui, regions.iter().map(|region| region.pixels))),
             SortKey::Highlight => {
                 let title_pt = if shows_numbers(SortKey::Body) { HIGHLIGHT_TITLE_PT } else { width };
-                title_pt.max(count_width(ui, regions.iter().map(|region| region.highlight_pixels)))
+                title_pt.max(count_width(ui, regions.iter().filter_map(RegionReflection::highlights)))
             }
             SortKey::Warnings if !shows_numbers(SortKey::Body) => NARROW_NOTES_PT,
             SortKey::Warnings if !shows_numbers(SortKey::Surface) => 110.0,
@@ -292,8 +292,7 @@ fn table_cell(
             number_cell(row, angle.unwrap_or_else(dash), None);
         }
         SortKey::Highlight => {
-            let pixels =
-                (region.highlight_pixels > 0).then(|| crate::describe::grouped(region.highlight_pixels));
+            let pixels = region.highlights().map(crate::describe::grouped);
             let branches = &region.highlight_branches;
             let tip = (!branches.is_empty()).then(|| highlight_lines(branches));
             number_cell(row, pixels.map_or_else(dash, RichText::new), tip);

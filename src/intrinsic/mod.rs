@@ -78,7 +78,8 @@ pub struct RegionReflection {
     pub pixels: usize,
     /// Number of pixels nearer to the matte line.
     pub matte_pixels: usize,
-    /// Number of pixels nearer to a highlight line, restored ones included.
+    /// Number of the other pixels: nearer to a highlight line, or clipped or bloomed. Without a highlight line they are no
+    /// highlights, see [`Self::highlights`].
     pub highlight_pixels: usize,
     /// Number of clipped pixels.
     pub clipped_pixels: usize,
@@ -118,6 +119,12 @@ pub struct RegionReflection {
 }
 
 impl RegionReflection {
+    /// Number of pixels that belong to the region's highlights, clipped and bloomed ones included; none of a region without a
+    /// highlight line, and of one without such pixels.
+    pub fn highlights(&self) -> Option<usize> {
+        self.surface.map(|_| self.highlight_pixels).filter(|&pixels| pixels > 0)
+    }
+
     /// Whether one skewed T explains the region, or its matte line alone where it has no plane; where not, the region's plane is not used.
     pub fn model_fits(&self) -> bool {
         self.verdict.fits()

@@ -199,7 +199,7 @@ fn figures(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Vec<Figure> {
     };
     let regions = |shown: &ResultSnapshot| shown.analysis.intrinsic.regions.len();
     let highlights = |shown: &ResultSnapshot| {
-        shown.analysis.intrinsic.regions.iter().filter(|region| region.highlight_pixels > 0).count()
+        shown.analysis.intrinsic.regions.iter().filter(|region| region.highlights().is_some()).count()
     };
     let mut figures = vec![
         both("regions", "", &|shown| Some(regions(shown) as f64)),

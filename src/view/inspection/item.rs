@@ -126,8 +126,10 @@ fn of_region(shown: &ResultSnapshot, id: RegionId) -> Option<Inspection> {
         || "no dichromatic plane".to_owned(),
         |angle| format!("{angle:.1}\u{b0} between body and surface vector"),
     );
+    // Without a highlight line the other pixels are no highlights.
+    let others = if region.surface.is_some() { "highlight or clipped" } else { "clipped or bloomed" };
     let sentence = format!(
-        "{}, {} of them matte and {} highlight; {angle}; confidence {:.2}",
+        "{}, {} of them matte and {} {others}; {angle}; confidence {:.2}",
         counted(region.pixels, "pixel"),
         grouped(region.matte_pixels),
         grouped(region.highlight_pixels),

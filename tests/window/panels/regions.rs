@@ -4,11 +4,11 @@ use crate::window::{
     Window, apply, at, click, drag, inside, item, named, pointer, press, region, says, shown, state,
     tiny_window, undo, words, zoom_in,
 };
-use dichroscope::app::{Command, DebugCommand, Edit};
+use dichroscope::app::{Command, DebugCommand, Edit, JobCommand};
 use dichroscope::gui::Pane;
 use dichroscope::raster::{PixelIndex, RegionId};
 use dichroscope::trace::Topic;
-use dichroscope::view::Item;
+use dichroscope::view::{Item, Origin};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::Node;
@@ -75,6 +75,24 @@ fn a_click_in_the_picture_selects_the_region_and_hovering_tells_the_pixel() {
     window.remove_cursor();
     window.run_steps(2);
     assert_eq!(state(&window).hover, None);
+}
+
+#[test]
+fn clipped_pixels_of_a_gray_picture_are_not_called_highlights() {
+    let gray = image::open(crate::window::tiny()).unwrap().into_luma8();
+    let mut bytes = std::io::Cursor::new(Vec::new());
+    image::DynamicImage::from(gray).into_rgb8().write_to(&mut bytes, image::ImageFormat::Png).unwrap();
+    let mut window = crate::window::window();
+    let origin = Origin::Bytes { name: "gray.png".to_owned(), bytes: bytes.into_inner().into() };
+    apply(&mut window, JobCommand::Open(origin));
+    assert!(says(&window, "no highlight was found") || says(&window, "No highlight was found"));
+    let region = shown(&window).analysis.intrinsic.regions[0].clone();
+    assert!(region.highlight_pixels > 0 && region.clipped_pixels > 0, "pixels that are not matte");
+    assert_eq!((region.highlights(), item(&window)), (None, Some(Item::Region(region.id))));
+    let clipped = grouped(region.highlight_pixels);
+    assert!(says(&window, &format!("and {clipped} clipped or bloomed")), "the inspector");
+    let is_number = |node: Node<'_>| words(&node).is_some_and(|words| words == clipped);
+    assert!(!window.root().children_recursive().any(is_number), "the table has no highlights");
 }
 
 #[test]
