@@ -39,8 +39,8 @@ use tools::{PointerContext, ToolState};
 
 /// Height without the toolbar below which the panel is low: readout and verdict have a line each, and the picture the rest; points.
 const LOW_PT: f32 = 250.0;
-/// Height of a line of the verdict, points.
-const VERDICT_LINE_PT: f32 = 20.0;
+/// Width of a panel in which nearly every verdict has room in one line, points; in a narrower panel, the verdict has two.
+const ONE_LINE_PT: f32 = 760.0;
 /// Half the width of the wipe's handle, points.
 const HANDLE_PT: f32 = 6.0;
 
@@ -56,8 +56,6 @@ pub struct ImagePanel {
     place: Option<Placement>,
     /// The toolbar's height in the last frame, points.
     toolbar_height_pt: f32,
-    /// The height of the verdict when it was last shown, points.
-    verdict_height_pt: f32,
     step_sentence: StepSentence,
     /// The notes over the picture that a person dismissed.
     notes: DismissedNotes,
@@ -162,8 +160,8 @@ impl ImagePanel {
         self.is_compared || ui.input(|input| input.key_pressed(Key::C))
     }
 
-    /// Shows the verdict on the result, or the sentence about the step at the debugger's cursor, which has the height of the
-    /// verdict, so that the picture does not move.
+    /// Shows the verdict on the result, or the sentence about the step at the debugger's cursor. The strip has a height that no
+    /// sentence changes, and is there before the first result is, so that the picture does not move.
     fn show_verdict(
         &mut self,
         ui: &mut Ui,
@@ -172,40 +170,28 @@ impl ImagePanel {
         bar: Frame,
         is_low: bool,
     ) {
-        let state = cx.state;
-        // The verdict on the first preview keeps the place of the verdict on the result, so that the picture does not move.
-        let preview = || state.shown_preview().map(|(preview, _)| &preview.shown);
-        let Some(shown) = state.shown().or_else(preview).filter(|_| !cx.is_export) else { return };
-        let frame = bar.inner_margin(Margin { left: 8, right: 8, top: 4, bottom: 2 });
-        let panel = Panel::bottom("verdict").frame(frame).resizable(false);
-        if state.debugger.stopped().is_none() {
-            let shown = panel.show(ui, |ui| {
-                ui.set_min_height(VERDICT_LINE_PT);
-                if is_low {
-                    // The picture comes first: what does not fit into one line is shown over the picture on demand.
-                    verdict_strip::show_line(ui, cx, shown);
-                } else {
-                    verdict_strip::show(ui, cx, shown);
-                }
-                // The strip has the height of its contents from the next frame on.
-                if ui.min_rect().bottom() > ui.max_rect().bottom() + 0.5 {
-                    ui.ctx().request_repaint();
-                }
-            });
-            let height = shown.response.rect.height();
-            if (height - std::mem::replace(&mut self.verdict_height_pt, height)).abs() > 0.5 {
-                ui.ctx().request_repaint();
-            }
+        if cx.is_export {
             return;
         }
-        // The line between the panels belongs to the height that was measured.
-        let height = self.verdict_height_pt.max(26.0) + 1.0;
+        let state = cx.state;
+        let preview = || state.shown_preview().map(|(preview, _)| &preview.shown);
+        let shown = state.shown().or_else(preview);
+        let rows = if is_low || ui.available_width() >= ONE_LINE_PT { 1 } else { 2 };
+        let margin = Margin { left: 8, right: 8, top: 4, bottom: 2 };
+        let height = verdict_strip::height_of(ui, rows) + margin.sum().y;
+        let panel = Panel::bottom("verdict").frame(bar.inner_margin(margin)).resizable(false);
         panel.exact_size(height).show(ui, |ui| {
-            ui.set_min_height(height - 6.0);
-            cursor::beside_follow_button(ui, state, debug, |ui| match state.followed() {
-                Some(replay) => self.step_sentence.show(ui, cx, replay),
-                // Beside the button the verdict may need more lines than the strip has.
-                None => verdict_strip::show_line(ui, cx, shown),
+            if state.debugger.stopped().is_none() {
+                if let Some(shown) = shown {
+                    verdict_strip::show_within(ui, cx, shown, rows);
+                }
+                return;
+            }
+            cursor::beside_follow_button(ui, state, debug, |ui| match (state.followed(), shown) {
+                (Some(replay), _) => self.step_sentence.show(ui, cx, replay),
+                // Beside the button the verdict has less width than without it.
+                (None, Some(shown)) => verdict_strip::show_within(ui, cx, shown, rows),
+                (None, None) => {}
             });
         });
     }

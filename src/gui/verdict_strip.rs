@@ -15,6 +15,16 @@ use egui::{Align2, Area, FontId, Frame, Label, Link, Order, RichText, Sense, Ui}
 
 /// Largest width of the sentence over the picture, points.
 const OVER_PICTURE_PT: f32 = 520.0;
+/// Gap between two clauses in a line, points.
+const CLAUSE_GAP_PT: f32 = 5.0;
+/// Gap between two lines of clauses, points.
+const LINE_GAP_PT: f32 = 2.0;
+
+/// Height of so many lines of the sentence, points.
+pub fn height_of(ui: &Ui, rows: usize) -> f32 {
+    let row_pt = ui.fonts_mut(|fonts| fonts.row_height(&FontId::proportional(BODY_PT)));
+    rows as f32 * (row_pt + LINE_GAP_PT)
+}
 
 /// The clauses of the sentence about a result, with their texts.
 fn clauses_with_texts(shown: &ResultSnapshot) -> (Vec<Clause>, Vec<String>) {
@@ -28,62 +38,83 @@ fn clauses_with_texts(shown: &ResultSnapshot) -> (Vec<Clause>, Vec<String>) {
     (clauses, texts)
 }
 
-/// Shows the sentence about a result in one line. What does not fit is shown over the picture, while the pointer or the focus of the keyboard
-/// is on the line or on the whole sentence.
-pub fn show_line(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
+/// Shows the sentence about a result in at most `rows` lines. What does not fit is shown over the picture, while the pointer or the focus of
+/// the keyboard is on the lines or on the whole sentence.
+pub fn show_within(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot, rows: usize) {
     let (clauses, texts) = clauses_with_texts(shown);
-    let sentence = texts.join(" ");
-    let font = egui::FontId::proportional(BODY_PT);
-    let width = ui.painter().layout_no_wrap(sentence.clone(), font, cx.palette.text).size().x;
-    if width <= ui.available_width() {
+    if rows_needed(ui, &texts) <= rows {
         return show(ui, cx, shown);
     }
     let is_bad = clauses.iter().any(|clause| clause.is_bad);
     let color = if is_bad { cx.palette.warning } else { cx.palette.text };
-    let text = RichText::new(sentence).size(BODY_PT).color(color);
-    let label =
-        Label::new(text).truncate().show_tooltip_when_elided(false).selectable(false).sense(Sense::click());
-    let line = ui.add(label);
+    let font = FontId::proportional(BODY_PT);
+    let mut job = LayoutJob::simple(texts.join(" "), font, color, ui.available_width());
+    job.wrap.max_rows = rows;
+    let label = Label::new(job).show_tooltip_when_elided(false).selectable(false).sense(Sense::click());
+    let lines = ui.add(label);
     let id = ui.scope_id().with("whole verdict");
     let area_before = ui.ctx().memory(|memory| memory.area_rect(id));
     let was_shown = ui.data(|data| data.get_temp::<bool>(id)).unwrap_or(false);
     let pointer = ui.ctx().pointer_hover_pos().filter(|_| was_shown);
     let is_over = pointer.zip(area_before).is_some_and(|(at, area)| area.expand(2.0).contains(at));
-    let is_shown = line.hovered() || line.has_focus() || is_over;
+    let is_shown = lines.hovered() || lines.has_focus() || is_over;
     ui.data_mut(|data| data.insert_temp(id, is_shown));
     if !is_shown {
         return;
     }
     let area = Area::new(id).order(Order::Middle).pivot(Align2::LEFT_BOTTOM);
-    area.fixed_pos(line.rect.left_bottom() + egui::vec2(-8.0, 4.0)).constrain(true).show(ui.ctx(), |ui| {
+    area.fixed_pos(lines.rect.left_bottom() + egui::vec2(-8.0, 4.0)).constrain(true).show(ui.ctx(), |ui| {
         Frame::popup(ui.style()).show(ui, |ui| {
-            ui.set_max_width(OVER_PICTURE_PT.min(line.rect.width().max(240.0)));
+            ui.set_max_width(OVER_PICTURE_PT.min(lines.rect.width().max(240.0)));
             show(ui, cx, shown);
         });
     });
 }
 
+/// Number of lines that the clauses need in the available width.
+fn rows_needed(ui: &Ui, texts: &[String]) -> usize {
+    let (full, mut rows, mut left) = (ui.available_width(), 0, 0.0);
+    let widths: Vec<f32> = texts.iter().map(|text| clause_width(ui, text)).collect();
+    if widths.iter().any(|&width| width > full) {
+        let font = FontId::proportional(BODY_PT);
+        let rows_of = |text: &String| {
+            let job = LayoutJob::simple(text.clone(), font.clone(), egui::Color32::WHITE, full);
+            ui.painter().layout_job(job).rows.len()
+        };
+        return texts.iter().map(rows_of).sum();
+    }
+    for width in widths {
+        if width > left {
+            (rows, left) = (rows + 1, full);
+        }
+        left -= width + CLAUSE_GAP_PT;
+    }
+    rows
+}
+
+/// Width of a clause in one line, points.
+fn clause_width(ui: &Ui, text: &str) -> f32 {
+    let font = FontId::proportional(BODY_PT);
+    ui.painter().layout_no_wrap(text.to_owned(), font, egui::Color32::WHITE).size().x
+}
+
 /// Shows the sentence about a result, in as many lines as needed.
 pub fn show(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
     let (clauses, texts) = clauses_with_texts(shown);
-    let font = egui::FontId::proportional(BODY_PT);
-    let width =
-        |text: &String| ui.painter().layout_no_wrap(text.clone(), font.clone(), cx.palette.text).size().x;
     // A clause is one widget and does not break into lines; where one is too long for that, each clause has lines of its own.
-    let fits = texts.iter().map(width).all(|width| width <= ui.available_width());
+    let fits = texts.iter().all(|text| clause_width(ui, text) <= ui.available_width());
     let contents = |ui: &mut Ui| {
-        ui.spacing_mut().item_spacing = egui::vec2(5.0, 2.0);
-        ui.spacing_mut().interact_size.y = 0.0;
-        ui.style_mut().wrap_mode = fits.then_some(egui::TextWrapMode::Extend);
         for (clause, text) in clauses.iter().zip(texts) {
             show_clause(ui, cx, clause, text);
         }
     };
-    if fits {
-        ui.horizontal_wrapped(contents)
-    } else {
-        ui.vertical(contents)
-    };
+    ui.scope(|ui| {
+        ui.spacing_mut().item_spacing = egui::vec2(CLAUSE_GAP_PT, LINE_GAP_PT);
+        // A line is as high as its letters.
+        ui.spacing_mut().interact_size.y = 0.0;
+        ui.style_mut().wrap_mode = fits.then_some(egui::TextWrapMode::Extend);
+        if fits { ui.horizontal_wrapped(contents) } else { ui.vertical(contents) }
+    });
 }
 
 /// The sentence about the step at the debugger's cursor, computed once for each place of the cursor.

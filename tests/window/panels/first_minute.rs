@@ -6,6 +6,7 @@ use crate::window::{
     tiny_window, window, words, zoom_in,
 };
 use dichroscope::app::{Edit, JobCommand, ViewCommand};
+use dichroscope::params::Method;
 use dichroscope::truth::sample;
 use dichroscope::view::{Arrangement, Item, Layer, Origin};
 use egui::accesskit::Role;
@@ -42,12 +43,46 @@ fn a_verdict_that_needs_more_lines_has_them_without_an_input() {
     let one_line = clauses(&window);
     assert!(one_line.len() > 1 && one_line.iter().all(|top| (top - one_line[0]).abs() < 0.1), "{one_line:?}");
     // As many frames as the window asks for, and then some more.
-    window.set_size(egui::vec2(330.0, 600.0));
+    window.set_size(egui::vec2(420.0, 600.0));
     window.run_ok();
     let lines = clauses(&window);
     window.run_steps(4);
     assert_eq!(lines, clauses(&window), "no clause moves later, when the pointer moves");
     assert!(lines[0] < lines[lines.len() - 1], "{lines:?}");
+}
+
+#[test]
+fn the_picture_stays_where_it_is_when_the_verdict_needs_more_or_fewer_lines() {
+    let mut window = tiny_window();
+    window.state_mut().show_alone(Some(dichroscope::gui::Pane::Image));
+    for width in [420.0, 900.0] {
+        window.set_size(egui::vec2(width, 600.0));
+        window.run_steps(4);
+        let seen = |window: &Window| (named(window, Role::Image, "Picture").rect(), clauses(window));
+        let (place, lines) = seen(&window);
+        for (method, is_same) in [(Method::Phoenix, false), (Method::Refined, true)] {
+            apply(&mut window, Edit::SetMethod(method));
+            window.run_steps(4);
+            assert_eq!(seen(&window).0, place, "{method:?} at {width}");
+            assert_eq!(seen(&window).1 == lines, is_same, "the sentence under {method:?} at {width}");
+        }
+    }
+}
+
+#[test]
+fn a_verdict_that_is_too_long_for_its_lines_is_shown_over_the_picture() {
+    let mut window = tiny_window();
+    window.state_mut().show_alone(Some(dichroscope::gui::Pane::Image));
+    window.set_size(egui::vec2(330.0, 600.0));
+    window.run_steps(4);
+    assert_eq!(clauses(&window), [] as [f32; 0], "no clause has room");
+    let is_verdict =
+        |node: &egui_kittest::Node| words(node).is_some_and(|text| text.contains("regions fit;"));
+    let lines = window.root().children_recursive().find(is_verdict).map(|node| node.rect());
+    let lines = lines.expect("as much as there is room for is shown");
+    window.hover_at(lines.center());
+    window.run_steps(3);
+    assert!(clauses(&window).len() > 1, "the whole sentence");
 }
 
 #[test]
