@@ -57,6 +57,8 @@ struct WindowContent {
     /// Whether the list of keys is shown.
     help: bool,
     space_tap: shortcuts::SpaceTap,
+    /// What was typed in the last frame after the key that opened a dialog or the palette.
+    typed_ahead: Vec<Event>,
     /// Whether a text field had the focus in the last frame.
     is_text_edited: bool,
     /// Actions that panels asked for in the last frame.
@@ -267,6 +269,10 @@ impl WindowContent {
     /// Carries out the actions of the pressed keys, of the menus and of the palette. Returns the keys that are kept from the panels, where a dialog
     /// or the palette owns the keyboard.
     fn handle_keys(&mut self, ui: &Ui, cx: &mut PanelContext) -> Option<Vec<egui::Event>> {
+        let typed_ahead = std::mem::take(&mut self.typed_ahead);
+        if self.dialogs.is_open() || self.command_palette.is_open() {
+            ui.ctx().input_mut(|input| drop(input.events.splice(0..0, typed_ahead)));
+        }
         self.dialogs.close_on_escape(ui.ctx());
         self.command_palette.close_on_keys(ui.ctx());
         self.panels.image.cancel_on_escape(ui.ctx());
@@ -285,7 +291,9 @@ impl WindowContent {
             self.menu_keys.handle(ui.ctx());
         }
         let held_keys = owns_keyboard.then(|| take_keys(ui.ctx()));
-        let pressed = shortcuts::pressed(ui.ctx(), escape_is_action, listeners, &mut self.space_tap);
+        let (pressed, typed_ahead) =
+            shortcuts::pressed(ui.ctx(), escape_is_action, listeners, &mut self.space_tap);
+        self.typed_ahead = typed_ahead;
         for action in std::mem::take(&mut self.actions).into_iter().chain(pressed) {
             // A dialog is invisible in its first frame, in which egui measures the dialog.
             ui.ctx().request_repaint();
@@ -423,14 +431,9 @@ fn draw_frame(cx: &mut PanelContext, draw: impl FnOnce(&mut PanelContext)) -> bo
 
 /// Takes the keys, the typed text and the clipboard's events out of the input of this frame.
 fn take_keys(ctx: &egui::Context) -> Vec<Event> {
-    let is_key = |event: &Event| {
-        matches!(
-            event,
-            Event::Key { .. } | Event::Text(_) | Event::Ime(_) | Event::Copy | Event::Cut | Event::Paste(_)
-        )
-    };
     ctx.input_mut(|input| {
-        let (keys, others) = std::mem::take(&mut input.events).into_iter().partition(is_key);
+        let events = std::mem::take(&mut input.events).into_iter();
+        let (keys, others) = events.partition(shortcuts::is_of_keyboard);
         input.events = others;
         keys
     })

@@ -174,16 +174,16 @@ fn keys_as_text(ctx: &egui::Context, keys: KeyboardShortcut) -> String {
         .map_or_else(|| text.clone(), |modifiers| format!("{modifiers}{symbol}"))
 }
 
-/// The actions whose keys were pressed; none while a text is being edited or a menu is open. `escape_is_action`: whether Escape is an
-/// action; otherwise Escape closes a dialog or a menu.
+/// The actions whose keys were pressed, and what was typed after a key that opens a field for text; none while a text is being edited
+/// or a menu is open. `escape_is_action`: whether Escape is an action; otherwise Escape closes a dialog or a menu.
 pub fn pressed(
     ctx: &egui::Context,
     escape_is_action: bool,
     listeners: KeyListeners,
     space_tap: &mut SpaceTap,
-) -> Vec<Action> {
+) -> (Vec<Action>, Vec<egui::Event>) {
     if is_keyboard_owned(ctx) {
-        return Vec::new();
+        return (Vec::new(), Vec::new());
     }
     let active: Vec<&Shortcut> = all_shortcuts()
         .filter(|shortcut| escape_is_action || shortcut.action != Action::Escape)
@@ -192,23 +192,33 @@ pub fn pressed(
     let (space_shortcuts, keys): (Vec<&Shortcut>, Vec<&Shortcut>) =
         active.into_iter().partition(|shortcut| shortcut.keys.logical_key == Key::Space);
     let released = space_tap.released(ctx, !space_shortcuts.is_empty());
-    let mut actions = ctx.input_mut(|input| take_actions(&mut input.events, &keys));
+    let (mut actions, typed) = ctx.input_mut(|input| take_actions(&mut input.events, &keys));
     actions.extend(released.map(|direction| Action::Debug(DebugAction::Play(direction))));
-    actions
+    (actions, typed)
+}
+
+/// Whether an event is of a key, of typed text or of the clipboard.
+pub const fn is_of_keyboard(event: &egui::Event) -> bool {
+    use egui::Event;
+    matches!(
+        event,
+        Event::Key { .. } | Event::Text(_) | Event::Ime(_) | Event::Copy | Event::Cut | Event::Paste(_)
+    )
 }
 
 /// Takes the events of the keys of `shortcuts` out of `events`, and returns their actions in the order of the events: a key that is pressed
-/// twice within a slow frame counts twice. Keys after one that opens a field for text are meant for the field: they are taken out, too, and
-/// are no actions.
-fn take_actions(events: &mut Vec<egui::Event>, shortcuts: &[&Shortcut]) -> Vec<Action> {
-    let mut actions: Vec<Action> = Vec::new();
+/// twice within a slow frame counts twice. What is typed after a key that opens a field for text is meant for the field: it is taken out,
+/// too, and returned beside the actions.
+fn take_actions(events: &mut Vec<egui::Event>, shortcuts: &[&Shortcut]) -> (Vec<Action>, Vec<egui::Event>) {
+    let (mut actions, mut typed): (Vec<Action>, Vec<egui::Event>) = Default::default();
     events.retain(|event| {
+        if actions.last().is_some_and(|action| action.asks_for_text()) && is_of_keyboard(event) {
+            typed.push(event.clone());
+            return false;
+        }
         let egui::Event::Key { key, physical_key, pressed: true, modifiers, .. } = event else {
             return true;
         };
-        if actions.last().is_some_and(|action| action.asks_for_text()) {
-            return false;
-        }
         let of_digit = physical_key.and_then(|key| shortcut_of_digit(key, *modifiers, shortcuts));
         let of_key = || {
             let is_pressed = |KeyboardShortcut { modifiers: wanted, logical_key }| {
@@ -220,7 +230,7 @@ fn take_actions(events: &mut Vec<egui::Event>, shortcuts: &[&Shortcut]) -> Vec<A
         actions.extend(shortcut.map(|shortcut| shortcut.action));
         shortcut.is_none()
     });
-    actions
+    (actions, typed)
 }
 
 /// The shortcut of a digit key. The place of a key decides, as the key cap may show something else: the key 6 of a French keyboard is a

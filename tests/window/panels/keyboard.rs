@@ -225,6 +225,32 @@ fn what_is_typed_ahead_of_a_list_that_opens_is_no_command() {
     assert_eq!(state(&window).view, before);
 }
 
+#[test]
+fn what_is_typed_ahead_of_a_field_is_in_the_field() {
+    for opens in [Key::O, Key::E] {
+        let mut window = tiny_window();
+        // The first time, a dialog is invisible for a frame, in which it is measured; the second time it is known.
+        for _ in 0..2 {
+            let key = Event::Key {
+                key: opens,
+                physical_key: Some(opens),
+                pressed: true,
+                repeat: false,
+                modifiers: Modifiers::COMMAND,
+            };
+            window.input_mut().events.extend([key, Event::Text("a".to_owned())]);
+            window.step();
+            window.input_mut().events.push(Event::Text("b".to_owned()));
+            window.run_steps(3);
+            let path = window.get_by_role_and_label(Role::TextInput, "Path").value().unwrap();
+            // An export proposes a name, of which all but the extension is replaced.
+            let name = std::path::Path::new(&path).file_stem().unwrap();
+            assert_eq!(name, "ab", "{path} after {opens:?}");
+            press(&mut window, Modifiers::NONE, Key::Escape);
+        }
+    }
+}
+
 fn press_within_a_frame(window: &mut Window, keys: &[(Modifiers, Key)]) {
     for &(modifiers, key) in keys {
         let pressed = Event::Key { key, physical_key: Some(key), pressed: true, repeat: false, modifiers };
