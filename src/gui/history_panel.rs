@@ -55,7 +55,7 @@ impl HistoryPanel {
 fn entry(ui: &mut Ui, cx: &PanelContext, sentence: &str, index: usize, present: usize) -> egui::Response {
     // Undone steps are dimmed.
     let tone = if index > present { cx.palette.secondary } else { cx.palette.text };
-    let text = RichText::new(format!("{index}  {sentence}")).size(SMALL_PT).color(tone);
+    let text = RichText::new(format!("{index}  {}", widgets::unbroken(sentence))).size(SMALL_PT).color(tone);
     let button =
         Button::selectable(index == present, text).wrap().min_size(egui::vec2(ui.available_width(), 0.0));
     let response = ui.add(button);

@@ -1,7 +1,7 @@
 //! Notices about finished work, warnings and errors, over the lower part of the views, so that no panel moves when a notice comes or goes.
 
-use super::PanelContext;
 use super::theme::SMALL_PT;
+use super::{PanelContext, widgets};
 use crate::app::{Notice, Severity, ViewCommand};
 use egui::{Align2, Area, Frame, Id, Margin, Order, RichText, Ui, pos2};
 use std::time::Duration;
@@ -86,6 +86,6 @@ fn row(ui: &mut Ui, cx: &mut PanelContext, notice: &Notice) {
             cx.send(ViewCommand::Dismiss(notice.id));
         }
         ui.label(RichText::new(severity_text).color(tone));
-        ui.add(egui::Label::new(&notice.text).wrap().selectable(true));
+        ui.add(egui::Label::new(widgets::unbroken(&notice.text)).wrap().selectable(true));
     });
 }

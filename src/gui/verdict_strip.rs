@@ -132,7 +132,7 @@ impl StepSentence {
         if !known {
             let sentence = replay.last().map_or_else(
                 || "Nothing is decided yet".to_owned(),
-                |step| widgets::capitalized(&Names::of(replay.trace()).step(&step)),
+                |step| widgets::unbroken(&widgets::capitalized(&Names::of(replay.trace()).step(&step))),
             );
             self.shown = Some((generation, at, sentence));
         }

@@ -52,6 +52,12 @@ pub fn signed(value: f64, decimals: usize) -> String {
     if value < 0.0 && !is_zero { format!("\u{2212}{text}") } else { text }
 }
 
+/// A sentence whose numbers do not part at the end of a line. egui breaks a line at every space but U+00A0, so also at the thin spaces of
+/// [`crate::describe::grouped`].
+pub fn unbroken(sentence: &str) -> String {
+    sentence.replace('\u{2009}', "\u{a0}")
+}
+
 /// A word with a capital first letter.
 pub fn capitalized(word: &str) -> String {
     let mut letters = word.chars();

@@ -106,8 +106,8 @@ fn show_sentence(ui: &mut Ui, cx: &PanelContext, sentence: &WhySentence, place: 
         Ordering::Equal => cx.palette.accent,
         Ordering::Greater => cx.palette.secondary,
     };
-    let galley =
-        ui.painter().layout(sentence.text.clone(), font.clone(), color, (width - left - 4.0).max(40.0));
+    let text = widgets::unbroken(&sentence.text);
+    let galley = ui.painter().layout(text, font.clone(), color, (width - left - 4.0).max(40.0));
     let size = vec2(width, galley.size().y + 4.0);
     let (sense, role) = match sentence.step {
         Some(_) => (Sense::click(), egui::accesskit::Role::Link),

@@ -14,7 +14,8 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, found: &Inspection, subject: Sub
     ui.spacing_mut().item_spacing.y = 3.0;
     head(ui, cx, found, subject);
     if !found.sentence.is_empty() {
-        let sentence = widgets::with_subscripts(&found.sentence, SMALL_PT, cx.palette.text);
+        let sentence = widgets::unbroken(&found.sentence);
+        let sentence = widgets::with_subscripts(&sentence, SMALL_PT, cx.palette.text);
         ui.add(Label::new(sentence).wrap());
     }
     if let Subject::Hovered(Item::Pixel(pixel)) | Subject::Selected(Item::Pixel(pixel)) = subject {

@@ -90,7 +90,8 @@ fn clipped_pixels_of_a_gray_picture_are_not_called_highlights() {
     assert!(region.highlight_pixels > 0 && region.clipped_pixels > 0, "pixels that are not matte");
     assert_eq!((region.highlights(), item(&window)), (None, Some(Item::Region(region.id))));
     let clipped = grouped(region.highlight_pixels);
-    assert!(says(&window, &format!("and {clipped} clipped or bloomed")), "the inspector");
+    let told = format!("and {} clipped or bloomed", clipped.replace('\u{2009}', "\u{a0}"));
+    assert!(says(&window, &told), "the inspector");
     let is_number = |node: Node<'_>| words(&node).is_some_and(|words| words == clipped);
     assert!(!window.root().children_recursive().any(is_number), "the table has no highlights");
 }
