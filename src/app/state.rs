@@ -7,8 +7,8 @@ use super::{
 use crate::raster::{PixelIndex, RegionId};
 use crate::trace::Replay;
 use crate::view::{
-    Against, Elsewhere, ElsewhereKind, ElsewherePaths, Item, Layer, LayerNeed, Picture, PixelReading,
-    ResultSnapshot, Watch, watch,
+    Against, Arrangement, Elsewhere, ElsewhereKind, ElsewherePaths, Item, Layer, LayerNeed, Picture,
+    PixelReading, ResultSnapshot, Watch, watch,
 };
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -42,6 +42,8 @@ pub struct State {
     pub others: Vec<OpenPhotograph>,
     /// Whether the second view of the picture shows the next of these photographs in place of the one that is shown.
     pub compares_photographs: bool,
+    /// The arrangement and the second layer before the comparison of two photographs; none while none are compared.
+    pub(super) before_comparison: Option<(Arrangement, Layer)>,
     /// The settings of the views.
     pub view: ViewSettings,
     /// The step debugger.

@@ -2,7 +2,8 @@
 
 use super::edits::{analyze, forget_defaults};
 use crate::app::photographs::MOST_OTHERS;
-use crate::app::{Effect, OpenPhotograph, State, Switching};
+use crate::app::{Effect, OpenPhotograph, Severity, State, Switching};
+use crate::view::Arrangement;
 
 /// Puts the photograph that is shown to the end of the others, before another one is shown.
 pub(super) fn keep_open(state: &mut State) {
@@ -39,7 +40,38 @@ pub(super) fn close(state: &mut State) -> Vec<Effect> {
     }
     take_shown(state);
     let next = state.others.remove(0);
+    if state.others.is_empty() {
+        compare(state, false);
+    }
     show(state, next)
+}
+
+/// Begins or ends the comparison with the next photograph. At its end the views are as before, but for what was chosen meanwhile.
+pub(super) fn compare(state: &mut State, compares: bool) {
+    if compares == state.compares_photographs {
+        return;
+    }
+    if compares && state.others.is_empty() {
+        let text = "there is no second photograph to compare with: open one first";
+        return state.notify(Severity::Warning, text.to_owned());
+    }
+    state.compares_photographs = compares;
+    let image = &mut state.view.image;
+    if compares {
+        state.before_comparison = Some((image.arrangement, image.other));
+        if image.arrangement == Arrangement::Single {
+            image.arrangement = Arrangement::SideBySide;
+        }
+        image.other = image.layer;
+    } else if let Some((arrangement, other)) = state.before_comparison.take() {
+        if arrangement == Arrangement::Single && image.arrangement == Arrangement::SideBySide {
+            image.arrangement = arrangement;
+        }
+        // The same layer twice is of no use once both are of one photograph.
+        if image.other == image.layer {
+            image.other = other;
+        }
+    }
 }
 
 /// The photograph that is shown, taken out of the state.

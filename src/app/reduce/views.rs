@@ -1,7 +1,8 @@
 //! The reducer of the commands that change how things are shown.
 
+use super::photographs::compare;
 use crate::app::{State, ViewCommand};
-use crate::view::{Arrangement, Item};
+use crate::view::Item;
 use std::sync::Arc;
 
 /// Changes how things are shown.
@@ -33,13 +34,7 @@ pub(super) fn reduce(state: &mut State, command: ViewCommand) {
         ViewCommand::Notify(severity, text) => state.notify(severity, text),
         ViewCommand::Dismiss(id) => state.notices.retain(|notice| notice.id != id),
         ViewCommand::ComparePhotographs(compares) => {
-            state.compares_photographs = compares;
-            if compares && state.view.image.arrangement == Arrangement::Single {
-                state.view.image.arrangement = Arrangement::SideBySide;
-            }
-            if compares {
-                state.view.image.other = state.view.image.layer;
-            }
+            compare(state, compares);
         }
         ViewCommand::CloseElsewhere(kind) => {
             let rest = state.elsewhere.take().and_then(|elsewhere| elsewhere.without(kind));

@@ -3,10 +3,10 @@
 use crate::window::{
     apply, choose, click, named, open_sample, press, region, says, sigma, state, tiny_window,
 };
-use dichroscope::app::{Edit, JobCommand};
+use dichroscope::app::{Edit, JobCommand, ViewCommand};
 use dichroscope::params::{Parameter, Setting};
 use dichroscope::truth::sample;
-use dichroscope::view::{Arrangement, Item, Origin};
+use dichroscope::view::{Arrangement, Item, Layer, Origin};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 
@@ -70,6 +70,35 @@ fn a_photograph_that_is_opened_again_is_open_once_and_two_are_compared_beside() 
     assert!(says(&window, "Layer shown: copy.png: "), "the second view shows the other photograph");
     press(&mut window, Modifiers::COMMAND, Key::D);
     assert!(!says(&window, "Layer shown: copy.png: "));
+}
+
+#[test]
+fn the_views_are_as_before_when_two_photographs_are_compared_no_more() {
+    let mut window = tiny_window();
+    open_sample(&mut window, sample::NAME);
+    let mut image = state(&window).view.image.clone();
+    for arrangement in [Arrangement::Wipe(0.5), Arrangement::Single, Arrangement::SideBySide] {
+        (image.arrangement, image.layer, image.other) = (arrangement, Layer::Input, Layer::Body);
+        apply(&mut window, ViewCommand::Image(image.clone()));
+        let arranged = |window: &crate::window::Window| {
+            let image = &state(window).view.image;
+            (image.arrangement, image.layer, image.other)
+        };
+        let before = arranged(&window);
+        press(&mut window, Modifiers::COMMAND, Key::D);
+        assert_ne!(arranged(&window), before);
+        press(&mut window, Modifiers::COMMAND, Key::D);
+        assert_eq!(arranged(&window), before);
+    }
+    let before = state(&window).view.image.other;
+    press(&mut window, Modifiers::COMMAND, Key::D);
+    press(&mut window, Modifiers::COMMAND, Key::W);
+    assert!(!state(&window).compares_photographs, "there is no other photograph");
+    assert_eq!(state(&window).view.image.other, before);
+    let before = state(&window).view.image.clone();
+    press(&mut window, Modifiers::COMMAND, Key::D);
+    assert!(says(&window, "there is no second photograph to compare with"));
+    assert_eq!(state(&window).view.image, before);
 }
 
 #[test]
