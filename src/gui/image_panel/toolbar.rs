@@ -25,7 +25,7 @@ const TOOLS: [(Tool, &str, &str); 7] = [
     (
         Tool::WhitePatch,
         "White patch",
-        "Pins the light's color to the mean of a white patch (section 6); with Shift the second lamp's (7.5).",
+        "Pins the light's color to the mean of a white patch, dragged or 5 px around a click (section 6); with Shift the second lamp's (7.5).",
     ),
 ];
 

@@ -125,7 +125,8 @@ impl ToolState {
                 } else if is_pressed_here {
                     self.continue_drag(place, cx, modifiers, settings.brush_px);
                 }
-                if released && (is_pressed_here || response.drag_stopped() || response.clicked()) {
+                // In a slow frame a release is neither a click nor the end of a drag.
+                if released && (is_pressed_here || response.drag_stopped() || response.hovered()) {
                     self.end_drag(place, cx, modifiers);
                 }
             }
@@ -201,11 +202,14 @@ impl ToolState {
         let pointer_px = self.pointer_px;
         match std::mem::take(&mut self.gesture) {
             PendingGesture::Rectangle(from) => {
-                let mask = rectangle(picture_size(place), from.into(), pointer_px.into());
+                let size = picture_size(place);
+                let mask = rectangle(size, from.into(), pointer_px.into());
                 let is_click = (from - pointer_px).abs().max_elem() * place.zoom < CLICK_TOLERANCE_PT;
                 match (self.tool, is_click) {
                     (Tool::WhitePatch, false) => white_patch::pin_lamp(cx, &mask, modifiers.shift),
-                    (Tool::WhitePatch, true) => {}
+                    (Tool::WhitePatch, true) => {
+                        white_patch::pin_lamp(cx, &white_patch::around(size, pointer_px), modifiers.shift);
+                    }
                     (_, false) => send_mark(cx, mask, modifiers),
                     (_, true) => clear_marks(cx, modifiers),
                 }

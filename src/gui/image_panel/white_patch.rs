@@ -3,6 +3,17 @@
 use crate::app::{Command, Edit, Severity, State, ViewCommand};
 use crate::gui::PanelContext;
 use crate::raster::Mask;
+use crate::view::marking::rectangle;
+use egui::{Pos2, Vec2};
+
+/// Side of the patch around a clicked pixel, pixels.
+const CLICKED_SIDE_PX: f32 = 5.0;
+
+/// The patch around the pixel at `place_px` in a picture of `size` pixels.
+pub fn around(size: (usize, usize), place_px: Pos2) -> Mask {
+    let reach_px = Vec2::splat(CLICKED_SIDE_PX / 2.0);
+    rectangle(size, (place_px - reach_px).into(), (place_px + reach_px).into())
+}
 
 /// Pins the color of the light, or of the second lamp (`is_second`), to the mean of the reliable pixels.
 pub fn pin_lamp(cx: &mut PanelContext, mask: &Mask, is_second: bool) {

@@ -146,6 +146,12 @@ fn a_white_patch_pins_the_light() {
     drag(&mut window, &[from, to], Modifiers::NONE);
     let light = state(&window).document.params.illuminant.direction().unwrap();
     let body = shown(&window).analysis.intrinsic.regions[0].body;
-    let cosine: f64 = light.iter().zip(body).map(|(a, b)| a * b).sum();
-    assert!(cosine > 0.95, "the mean of a matte patch lies near its body color: {light:?}, {body:?}");
+    let cosine = |light: [f64; 3]| light.iter().zip(body).map(|(a, b)| a * b).sum::<f64>();
+    assert!(cosine(light) > 0.95, "the mean of a matte patch lies near its body color: {light:?}, {body:?}");
+    undo(&mut window);
+    assert_eq!(state(&window).document.params.illuminant.direction(), None);
+    let center = at(&window, x + 0.5, y + 0.5);
+    drag(&mut window, &[center, center], Modifiers::NONE);
+    let clicked = state(&window).document.params.illuminant.direction().unwrap();
+    assert!(cosine(clicked) > 0.95, "a click takes the patch around its pixel: {clicked:?}");
 }
