@@ -60,7 +60,7 @@ pub fn instant_legend(instant: &Instant) -> Vec<LegendEntry> {
                 Some((_, false)) => legend.push(LegendEntry::new(
                     "no highlight",
                     REFUSED,
-                    "where no region holds: a blob that is no highlight, or a clipped one that is left",
+                    "where no region holds: a blob that is no highlight, or a clipped one that is not filled",
                 )),
                 None => {}
             }
