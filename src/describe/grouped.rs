@@ -1,7 +1,9 @@
 //! Numbers in sentences and in panels, in groups of three digits. Trace lines and reports hold numbers as they are.
 
-/// A whole number with thin spaces between groups of three digits.
-pub fn grouped(number: usize) -> String {
+use std::fmt;
+
+/// A whole number of any type with thin spaces between groups of three digits.
+pub fn grouped(number: impl fmt::Display + Ord + Copy) -> String {
     group_whole_part(&number.to_string())
 }
 
@@ -11,8 +13,10 @@ pub fn grouped_decimals(number: f64, decimals: usize) -> String {
 }
 
 /// A number of things: `1 pixel`, `14 452 pixels` with thin spaces. `what` is the singular of a word whose plural ends in s.
-pub fn counted(number: usize, what: &str) -> String {
-    format!("{} {what}{}", grouped(number), if number == 1 { "" } else { "s" })
+pub fn counted(number: impl fmt::Display + Ord + Copy, what: &str) -> String {
+    let number = grouped(number);
+    let ending = if number == "1" { "" } else { "s" };
+    format!("{number} {what}{ending}")
 }
 
 /// The text of a number with thin spaces between groups of three digits before the point.

@@ -1,6 +1,5 @@
 //! Names of hypotheses, regions and pixels in sentences, and the format of numbers.
 
-use crate::describe::counted;
 use crate::raster::{Blocks, HypothesisId, PixelIndex, RegionId};
 use crate::trace::{SecondLookRecord, Trace, regions_of};
 use serde_json::Value;
@@ -79,11 +78,6 @@ impl Names {
         let [x, y] = PixelIndex::from_index(self.pixel_blocks.middle(pixel.index())).position(width);
         [self.corner[0] + x, self.corner[1] + y]
     }
-}
-
-/// `1 pixel`, `12 pixels`.
-pub(super) fn count(n: impl Into<u64>, what: &str) -> String {
-    counted(n.into() as usize, what)
 }
 
 /// A direction with two decimals.

@@ -105,7 +105,7 @@ fn run_lines(watch: &Watch) -> Vec<Line> {
     let pass = watch.pass.map_or_else(dash, |pass| pass.name().to_owned());
     let [active, all] = watch.regions.map(crate::describe::grouped);
     let regions = format!("{active} of {all}");
-    let unassigned = crate::describe::grouped(watch.unassigned as usize);
+    let unassigned = crate::describe::grouped(watch.unassigned);
     let light = watch.light.map_or_else(|| vec![dash()], |light| light.map(|v| format!("{v:.3}")).to_vec());
     vec![
         Line::one("stage", "The stage of the step taken last (5.2 to 6).", stage, ""),
@@ -122,7 +122,7 @@ fn hypothesis_lines(current: &CurrentHypothesis) -> Vec<Line> {
         None => current.hypothesis.to_string(),
         Some(region) => format!("{} (region {region})", current.hypothesis),
     };
-    let pixels = crate::describe::grouped(current.pixels as usize);
+    let pixels = crate::describe::grouped(current.pixels);
     let vector = |v: &Vec3, digits: usize| v.iter().map(|v| format!("{v:.digits$}")).collect();
     let (mean, direction) = (vector(&current.line.mean, 1), vector(&current.line.direction, 3));
     let half = current.half_width.map_or_else(dash, |half| format!("{half:.2}"));

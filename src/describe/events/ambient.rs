@@ -2,8 +2,7 @@
 
 use super::{Describe, LineObjects, nothing};
 use crate::describe::light_words::ambient_reason;
-use crate::describe::names::count;
-use crate::describe::{Names, grouped_decimals};
+use crate::describe::{Names, counted, grouped_decimals};
 use crate::trace::{Ambient, Meeting};
 use serde_json::json;
 
@@ -22,7 +21,7 @@ impl Describe for Ambient {
         format!(
             "{what} subtracted: {reason}; {} pass {} \u{b1} {} counts by {miss:.1} counts (rms) and black by {of_black:.1}, \
              \u{3c7}\u{b2} {} (significant above {:.1})",
-            count(meeting.lines as u64, "matte line"),
+            counted(meeting.lines, "matte line"),
             counts(meeting.counts),
             counts(meeting.sd_counts),
             grouped_decimals(meeting.chi_square, 1),

@@ -3,8 +3,7 @@
 #[cfg(test)]
 use super::hypothesis;
 use super::{Describe, LineObjects, nothing};
-use crate::describe::names::count;
-use crate::describe::{Names, grouped, grouped_decimals};
+use crate::describe::{Names, counted, grouped, grouped_decimals};
 use crate::trace::{
     CodeInterval, ColorPeak, ColorPeaksFound, FeatureHistogram, FeatureVerdict, HistogramsSearched, PatchMade,
 };
@@ -21,17 +20,17 @@ impl Describe for HistogramsSearched {
             .collect();
         let others = others.join("; ");
         let Some(chosen) = self.chosen() else {
-            return format!("{region} ({} px) is homogeneous: {others}", grouped(self.pixels as usize));
+            return format!("{region} ({} px) is homogeneous: {others}", grouped(self.pixels));
         };
         let cuts: Vec<String> = chosen.cuts.iter().map(ToString::to_string).collect();
         let decision = format!(
             "{region} ({} px) is split by {} at {}: score {} of {}, {} in small patches",
-            grouped(self.pixels as usize),
+            grouped(self.pixels),
             chosen.feature.name(),
             cuts.join(", "),
             grouped_decimals(chosen.score.value.into(), 0),
             grouped(1000),
-            count(chosen.noise_px.unwrap_or(0), "pixel"),
+            counted(chosen.noise_px.unwrap_or(0), "pixel"),
         );
         if others.is_empty() { decision } else { format!("{decision}; {others}") }
     }
@@ -85,7 +84,7 @@ impl Describe for HistogramsSearched {
 fn refusal(feature: &FeatureHistogram) -> String {
     let name = feature.feature.name();
     let (value, limit) = (feature.score.value, feature.score.limit);
-    let noise = count(feature.noise_px.unwrap_or(0), "pixel");
+    let noise = counted(feature.noise_px.unwrap_or(0), "pixel");
     match feature.verdict {
         FeatureVerdict::NoValley => format!("{name} has no valley"),
         FeatureVerdict::LowScore => format!("{name}: score {value:.0}, at least {limit:.0} needed"),
@@ -110,12 +109,12 @@ impl Describe for PatchMade {
         let absorbed = if self.absorbed == 0 {
             String::new()
         } else {
-            format!(", {} of small patches absorbed", count(self.absorbed, "pixel"))
+            format!(", {} of small patches absorbed", counted(self.absorbed, "pixel"))
         };
         format!(
             "{} is a part of {of}: {}{codes}{absorbed}",
             names.hypothesis(self.hypothesis),
-            count(self.pixels, "pixel")
+            counted(self.pixels, "pixel")
         )
     }
 
@@ -151,10 +150,10 @@ impl Describe for ColorPeaksFound {
     fn sentence(&self, _names: &Names) -> String {
         format!(
             "the histogram of the picture ({}) has {} with at least {} px; {} absorbed",
-            count(self.pixels, "pixel"),
-            count(self.peaks.len() as u64, "peak"),
-            grouped(self.least as usize),
-            count(self.absorbed, "smaller one"),
+            counted(self.pixels, "pixel"),
+            counted(self.peaks.len(), "peak"),
+            grouped(self.least),
+            counted(self.absorbed, "smaller one"),
         )
     }
 

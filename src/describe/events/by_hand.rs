@@ -3,8 +3,8 @@
 #[cfg(test)]
 use super::hypothesis;
 use super::{Describe, LineObjects, line, nothing};
-use crate::describe::Names;
-use crate::describe::names::{count, direction};
+use crate::describe::names::direction;
+use crate::describe::{Names, counted};
 use crate::trace::{MarkedCluster, MarkedLineFitted, MarkedPixelsTaken};
 use serde_json::json;
 
@@ -15,7 +15,7 @@ impl Describe for MarkedLineFitted {
             "round {round}: the {} line of {} is fitted to {}: direction {}, which lie {rms_counts:.2} counts from the line (rms)",
             cluster.name(),
             names.hypothesis(*hypothesis),
-            count(*pixels, "marked pixel"),
+            counted(*pixels, "marked pixel"),
             direction(line.direction.into())
         )
     }
@@ -55,7 +55,11 @@ impl Describe for MarkedPixelsTaken {
             MarkedCluster::Highlight => "not nearer to the matte line",
             MarkedCluster::Distorted => "clipped or bloomed",
         };
-        format!("{} takes {}, {what}", names.hypothesis(self.hypothesis), count(self.pixels, "marked pixel"))
+        format!(
+            "{} takes {}, {what}",
+            names.hypothesis(self.hypothesis),
+            counted(self.pixels, "marked pixel")
+        )
     }
 
     fn line_objects(&self, _names: &Names) -> LineObjects {

@@ -20,7 +20,7 @@ impl Describe for CandidateTested {
         format!(
             "{} ({} px) as highlight of {}: the lines pass {:.1} counts from one another, at {:.0} % of the matte line: {verdict}; {}",
             names.candidate(self.candidate),
-            grouped(self.pixels as usize),
+            grouped(self.pixels),
             names.hypothesis(self.hypothesis),
             self.gap.value,
             self.position_percent,

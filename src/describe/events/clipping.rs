@@ -3,8 +3,8 @@
 #[cfg(test)]
 use super::hypothesis;
 use super::{Describe, LineObjects, nothing};
-use crate::describe::Names;
-use crate::describe::names::{count, percent};
+use crate::describe::names::percent;
+use crate::describe::{Names, counted};
 use crate::raster::RegionId;
 use crate::trace::{ComponentSplit, Dropped, HoleFilled, Renumbered};
 use serde_json::json;
@@ -14,7 +14,7 @@ impl Describe for HoleFilled {
         let Self { hypothesis, pixel, pixels, border_share } = self;
         format!(
             "a hole of {} at {} goes to {}, which holds {} of its border",
-            count(*pixels, "pixel"),
+            counted(*pixels, "pixel"),
             names.pixel(*pixel),
             names.hypothesis(*hypothesis),
             percent(*border_share)
@@ -45,7 +45,7 @@ impl Describe for Dropped {
         format!(
             "{} is dropped, too small: {}",
             names.hypothesis(self.hypothesis),
-            count(self.pixels, "pixel")
+            counted(self.pixels, "pixel")
         )
     }
 
@@ -63,7 +63,7 @@ impl Describe for ComponentSplit {
     fn sentence(&self, names: &Names) -> String {
         format!(
             "{} of {} lie apart and become {}",
-            count(self.pixels, "pixel"),
+            counted(self.pixels, "pixel"),
             names.hypothesis(self.hypothesis),
             names.hypothesis(self.part)
         )

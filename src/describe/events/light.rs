@@ -1,8 +1,8 @@
 //! The light (section 5.4.1 and its refinements).
 
 use super::{Describe, LineObjects, nothing};
-use crate::describe::Names;
-use crate::describe::names::{count, direction, signed, tenths};
+use crate::describe::names::{direction, signed, tenths};
+use crate::describe::{Names, counted};
 use crate::trace::{
     AveragedDirection, Contribution, HighlightsAveraged, IlluminantEstimated, IlluminantGiven, LampLimits,
     LampOfRegion, LampsCompared, LightBasis, LightChosen, LightLimits, LightOdds, TwoLightTest, VoteResult,
@@ -17,7 +17,7 @@ impl Describe for IlluminantEstimated {
         let worst = weighted.clone().map(|contribution| contribution.residual_deg).fold(0.0, f64::max);
         let from = match weighted.count() {
             0 => String::new(),
-            n => format!(" from {}, at most {worst:.1}\u{b0} off", count(n as u64, "constraint")),
+            n => format!(" from {}, at most {worst:.1}\u{b0} off", counted(n, "constraint")),
         };
         let whose = outshone.as_ref().map_or_else(String::new, whose_light);
         format!("the light is {}{from}{whose}", direction(*light))
@@ -62,7 +62,7 @@ impl Describe for HighlightsAveraged {
         format!(
             "the light is {}, the average of {}: {}",
             direction(self.direction),
-            count(parts.len() as u64, "highlight direction"),
+            counted(parts.len(), "highlight direction"),
             parts.join(", ")
         )
     }
@@ -102,7 +102,7 @@ impl Describe for VotesCast {
         let Some(elected) = self.elected else {
             return format!(
                 "small highlights do not vote: fewer than {} have anything to say of the light",
-                count(self.least_voters, "pixel")
+                counted(self.least_voters, "pixel")
             );
         };
         format!(
@@ -213,7 +213,7 @@ impl Describe for LampsCompared {
         let Some(second) = second else {
             return format!(
                 "one lamp: the highlights of {} contradict its color, but too few of them agree on a second lamp (at least {} and {:.0} %, or {})",
-                count(*contradicting, "region"),
+                counted(*contradicting, "region"),
                 limits.regions,
                 100.0 * limits.share,
                 limits.ample_regions
@@ -227,7 +227,7 @@ impl Describe for LampsCompared {
                 "the second lamp was given, {}, beside {}: of {} with highlights those agree better with the second lamp that it lights, {lit}",
                 direction(*second),
                 direction(self.first),
-                count(self.regions.len() as u32, "region"),
+                counted(self.regions.len(), "region"),
             );
         }
         let error =
@@ -237,7 +237,7 @@ impl Describe for LampsCompared {
              which lights {}",
             direction(*second),
             direction(self.first),
-            count(*contradicting, "region"),
+            counted(*contradicting, "region"),
             lit.join(", ")
         )
     }
@@ -294,7 +294,7 @@ fn whose_light(outshone: &TwoLightTest) -> String {
     format!(
         "; it is that {alone}: from the planes of the highlights {} that the light outshines lie {:.1} \u{3c3} (rms), from those of \
          all pixels off the matte lines {:.1} \u{3c3}, {relation}{:.1} times better and at most {:.1} \u{3c3}",
-        count(pixels, "pixel"),
+        counted(pixels, "pixel"),
         by_highlights.sqrt(),
         by_all.sqrt(),
         better.sqrt(),
@@ -356,7 +356,7 @@ fn no_use(votes: Option<&VoteResult>, limits: &LightLimits) -> String {
 }
 
 fn voters(elected: &VoteResult) -> String {
-    format!("{} of {}", count(elected.voters, "pixel"), count(elected.blobs, "small highlight"))
+    format!("{} of {}", counted(elected.voters, "pixel"), counted(elected.blobs, "small highlight"))
 }
 
 fn farthest([yellow, magenta]: [f64; 2]) -> String {

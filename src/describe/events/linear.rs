@@ -3,8 +3,8 @@
 #[cfg(test)]
 use super::hypothesis;
 use super::{Describe, LineObjects, line, nothing};
-use crate::describe::names::{count, direction, ordinal, short};
-use crate::describe::{Names, grouped};
+use crate::describe::names::{direction, ordinal, short};
+use crate::describe::{Names, counted, grouped};
 use crate::trace::{
     Absorbed, GrowthBegan, HypothesisChosen, HypothesisPassedOver, LineRefitted, PassedOver, RegionsMerged,
     SeedsPlaced,
@@ -18,7 +18,7 @@ impl Describe for HypothesisChosen {
             "{} starts from area {area}, {} in size: {}, direction {}, radius {radius:.1} counts",
             names.hypothesis(*hypothesis),
             ordinal(*rank),
-            count(*pixels, "unclaimed pixel"),
+            counted(*pixels, "unclaimed pixel"),
             direction(line.direction.into())
         )
     }
@@ -67,7 +67,7 @@ impl Describe for HypothesisPassedOver {
 
 impl Describe for SeedsPlaced {
     fn sentence(&self, names: &Names) -> String {
-        format!("{} starts from {}", names.hypothesis(self.hypothesis), count(self.pixels, "pixel"))
+        format!("{} starts from {}", names.hypothesis(self.hypothesis), counted(self.pixels, "pixel"))
     }
 
     fn line_objects(&self, _names: &Names) -> LineObjects {
@@ -171,16 +171,14 @@ impl Describe for RegionsMerged {
 pub(in crate::describe) fn passed_over(reason: PassedOver, pixels: u32, least: u32) -> String {
     match reason {
         PassedOver::TooSmall => {
-            format!("{}, it needs {}", count(pixels, "unclaimed pixel"), grouped(least as usize))
+            format!("{}, it needs {}", counted(pixels, "unclaimed pixel"), grouped(least))
         }
-        PassedOver::Consumed => format!(
-            "{} of its pixels are still free, and it needs {}",
-            grouped(pixels as usize),
-            grouped(least as usize)
-        ),
+        PassedOver::Consumed => {
+            format!("{} of its pixels are still free, and it needs {}", grouped(pixels), grouped(least))
+        }
         PassedOver::FarFromBlack => "its line passes black outside the cylinder's radius".to_owned(),
         PassedOver::NoExtent => "its colors have no extent to fit a line to".to_owned(),
-        PassedOver::Barren => format!("growing from it claimed fewer than {}", count(least, "pixel")),
+        PassedOver::Barren => format!("growing from it claimed fewer than {}", counted(least, "pixel")),
         PassedOver::NoNumberLeft => "there is no number left for another region".to_owned(),
     }
 }

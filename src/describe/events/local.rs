@@ -2,8 +2,8 @@
 
 use super::{Describe, LineObjects, nothing};
 use crate::describe::names::short;
-use crate::describe::names::{count, percent, signed, tenths};
-use crate::describe::{Names, grouped, grouped_decimals};
+use crate::describe::names::{percent, signed, tenths};
+use crate::describe::{Names, counted, grouped, grouped_decimals};
 use crate::trace::{
     LocalBegan, LocalStart, PictureOddsFound, PlausibilityTested, RepairTried, RepairVerdict,
 };
@@ -12,8 +12,8 @@ use serde_json::json;
 impl Describe for LocalBegan {
     fn sentence(&self, _names: &Names) -> String {
         let Self { start, pixels, lit, least, .. } = self;
-        let all = count(*lit, "lit pixel");
-        let outside = format!("{} of {all} lie outside of what holds", grouped(*pixels as usize));
+        let all = counted(*lit, "lit pixel");
+        let outside = format!("{} of {all} lie outside of what holds", grouped(*pixels));
         match start {
             LocalStart::Begins => {
                 format!("{outside}: they are split by how much paler they are than their hue around them")
@@ -21,7 +21,7 @@ impl Describe for LocalBegan {
             LocalStart::Off if *pixels == 0 => outside,
             LocalStart::Off => format!("{outside}: they keep their colors, as the local split is off"),
             LocalStart::Few => {
-                format!("{outside}, fewer than {}: they keep their colors", grouped(*least as usize))
+                format!("{outside}, fewer than {}: they keep their colors", grouped(*least))
             }
             LocalStart::NoLight => format!("{outside}: they keep their colors, as the light is not known"),
         }
@@ -82,7 +82,7 @@ impl Describe for PictureOddsFound {
         let most = if log_odds > 0.0 { "highlight" } else { "print" };
         format!(
             "of {} paler than their hue most is {most}: {} is added to the log odds of each pixel",
-            count(pixels, "pixel"),
+            counted(pixels, "pixel"),
             signed(log_odds, 1)
         )
     }
@@ -135,7 +135,7 @@ impl Describe for PlausibilityTested {
 impl Describe for RepairTried {
     fn sentence(&self, names: &Names) -> String {
         let Self { pixel, pixels, ring, inner, outer, spread, around, verdict, .. } = *self;
-        let blob = format!("the blob of {} at {}", count(pixels, "clipped pixel"), names.pixel(pixel));
+        let blob = format!("the blob of {} at {}", counted(pixels, "clipped pixel"), names.pixel(pixel));
         let [share, least] = [ring.value, ring.limit].map(|share| percent(f64::from(share)));
         match verdict {
             RepairVerdict::Filled => format!(

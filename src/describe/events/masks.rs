@@ -1,8 +1,7 @@
 //! The masks (section 4).
 
 use super::{Describe, LineObjects, nothing};
-use crate::describe::names::count;
-use crate::describe::{Names, grouped};
+use crate::describe::{Names, counted, grouped};
 use crate::trace::MasksMade;
 use serde_json::json;
 
@@ -10,8 +9,8 @@ impl Describe for MasksMade {
     fn sentence(&self, _names: &Names) -> String {
         let Self { dark, distorted, sigma, .. } = self;
         let noise = sigma.map_or_else(String::new, |sigma| format!(", noise \u{3c3} {sigma:.2} counts"));
-        let distorted = grouped(*distorted as usize);
-        format!("{} dark, {distorted} clipped or bloomed{noise}", count(*dark, "pixel"))
+        let distorted = grouped(*distorted);
+        format!("{} dark, {distorted} clipped or bloomed{noise}", counted(*dark, "pixel"))
     }
 
     fn line_objects(&self, _names: &Names) -> LineObjects {

@@ -3,8 +3,7 @@
 #[cfg(test)]
 use super::hypothesis;
 use super::{Describe, LineObjects, nothing, vector};
-use crate::describe::names::count;
-use crate::describe::{Names, grouped};
+use crate::describe::{Names, counted, grouped};
 use crate::trace::{MatteAreasUnited, SliceMade};
 use serde_json::json;
 
@@ -56,8 +55,8 @@ impl Describe for MatteAreasUnited {
             "the matte area of {} is united with {}: {} of its {} lie in the same matte cylinder",
             names.hypothesis(hypothesis),
             names.hypothesis(into),
-            grouped(taken_px as usize),
-            count(area_px, "pixel")
+            grouped(taken_px),
+            counted(area_px, "pixel")
         )
     }
 

@@ -1,9 +1,8 @@
 //! Windows and areas (section 5.2).
 
 use super::{Describe, LineObjects, nothing};
-use crate::describe::names::count;
 use crate::describe::names::short;
-use crate::describe::{Names, grouped, grouped_decimals};
+use crate::describe::{Names, counted, grouped, grouped_decimals};
 use crate::trace::{Class, Measured, MergeTried, WindowClassified, WindowsLaid};
 use serde_json::json;
 
@@ -34,7 +33,7 @@ impl Describe for WindowsLaid {
 impl Describe for WindowClassified {
     fn sentence(&self, _names: &Names) -> String {
         let window = self.window;
-        let pixels = count(self.pixels, "valid pixel");
+        let pixels = counted(self.pixels, "valid pixel");
         let [a, b, c] = variances(self.eigenvalues);
         let verdict = self.class.map_or("too few for a class", Class::name);
         let held = held(self.chi_square);
@@ -65,7 +64,7 @@ impl Describe for MergeTried {
     fn sentence(&self, _names: &Names) -> String {
         let Self { into, from, pixels: [a, b], eigenvalues, chi_square, class, union } = self;
         let [x, y, z] = variances(*eigenvalues);
-        let [a, b] = [a, b].map(|&pixels| grouped(pixels as usize));
+        let [a, b] = [a, b].map(|&pixels| grouped(pixels));
         let verdict = if class == union { "they merge" } else { "they stay apart" };
         format!(
             "areas {into} ({a} px) and {from} ({b} px), both {}: variances of the union {x}, {y}, {z} \

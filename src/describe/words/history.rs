@@ -3,9 +3,9 @@
 use super::super::events::{interval_text, passed_over, variances};
 use super::local_history::{surroundings, unfit};
 use super::reason::{NO_VALUE, OUTSIDE_AREA};
-use super::{Names, count, ordinal, percent, signed, won};
+use super::{Names, ordinal, percent, signed, won};
 use crate::color::Trial;
-use crate::describe::{grouped, grouped_decimals};
+use crate::describe::{counted, grouped, grouped_decimals};
 use crate::reflection::{SliceBound, SliceMiss};
 use crate::trace::{
     Barrier, BorderLimit, Class, CodeInterval, HistoryEntry, HistoryKind, MarkedCluster, MaskVerdict,
@@ -57,7 +57,7 @@ impl Names {
             HistoryKind::AreaChosen { hypothesis, rank, pixels, radius } => format!(
                 "its area, {} with {}, starts {}, radius {radius:.1} counts",
                 ordinal(*rank),
-                count(*pixels, "unclaimed pixel"),
+                counted(*pixels, "unclaimed pixel"),
                 self.hypothesis(*hypothesis)
             ),
             HistoryKind::AreaPassedOver { pixels, least, reason } => {
@@ -125,19 +125,19 @@ impl Names {
             ),
             HistoryKind::Filled { hypothesis, pixels, border_share } => format!(
                 "a hole of {} around it goes to {}, which holds {} of its border",
-                count(*pixels, "pixel"),
+                counted(*pixels, "pixel"),
                 self.hypothesis(*hypothesis),
                 percent(*border_share)
             ),
             HistoryKind::Separated { hypothesis, part, pixels } => format!(
                 "with {} that lie apart from {} it becomes {}",
-                count(*pixels, "pixel"),
+                counted(*pixels, "pixel"),
                 self.hypothesis(*hypothesis),
                 self.hypothesis(*part)
             ),
             HistoryKind::Patched { hypothesis, of, pixels, interval, code } => {
                 let of = of.map_or_else(|| "the picture".to_owned(), |of| self.hypothesis(of));
-                let size = count(*pixels, "pixel");
+                let size = counted(*pixels, "pixel");
                 let part = format!("{}, a part of {of} ({size})", self.hypothesis(*hypothesis));
                 patched(&part, *interval, *code)
             }
@@ -161,13 +161,15 @@ impl Names {
             Release::Refit { distance, radius } => {
                 format!("{distance:.1} counts from its refitted axis, radius {radius:.1}")
             }
-            Release::Barren { least, .. } => format!("growing claimed fewer than {}", count(least, "pixel")),
+            Release::Barren { least, .. } => {
+                format!("growing claimed fewer than {}", counted(least, "pixel"))
+            }
             Release::Absorbed { by, highlight_foot: highlight, object_foot: object, gap } => format!(
                 "it is the broad highlight of {}: its line misses black by {highlight:.1} counts (the object's by \
                  {object:.1}), gap {gap:.1}",
                 self.hypothesis(by)
             ),
-            Release::Dropped { pixels } => format!("too small to keep, {}", count(pixels, "pixel")),
+            Release::Dropped { pixels } => format!("too small to keep, {}", counted(pixels, "pixel")),
         }
     }
 }
@@ -211,7 +213,7 @@ fn masked(verdict: &MaskVerdict) -> String {
             format!("clipped: largest band {largest:.1} counts, threshold {clip:.1}")
         }
         MaskVerdict::Bloomed { neighbors: [clipped, density] } => {
-            format!("bloomed: {} clipped, {density} suffice", count(clipped as u64, "neighbor"))
+            format!("bloomed: {} clipped, {density} suffice", counted(clipped, "neighbor"))
         }
     }
 }
@@ -221,13 +223,13 @@ fn window(story: &WindowStory) -> String {
     let [a, b, c] = variances(*eigenvalues);
     let place = format!("its window of {size_px} px");
     let Some(class) = class else {
-        return format!("{place} has no class: {}, it needs {least}", count(*pixels, "valid pixel"));
+        return format!("{place} has no class: {}, it needs {least}", counted(*pixels, "valid pixel"));
     };
     let tests: Vec<String> = trials.iter().map(|trial| tried(trial, *tail_test)).collect();
     format!(
         "{place} is a {}: variances {a}, {b}, {c} counts\u{b2} of {}; {}",
         class.name(),
-        count(*pixels, "pixel"),
+        counted(*pixels, "pixel"),
         tests.join(", ")
     )
 }
@@ -237,7 +239,7 @@ fn tried(trial: &Trial, tail_test: bool) -> String {
     let relation = if trial.is_noise() { '\u{2264}' } else { '>' };
     let what = match (tail_test, trial.directions) {
         (true, 0) => "all of it".to_owned(),
-        (true, n) => format!("beyond {}", count(n as u64, "direction")),
+        (true, n) => format!("beyond {}", counted(n, "direction")),
         (false, n) => format!("direction {}", n + 1),
     };
     format!("{what} {}", chi_square(trial, relation))
@@ -255,9 +257,9 @@ fn merging(story: &MergeStory) -> String {
     let grown = format!(
         "its area, a {}, grows to {}: {} of {} kept the class",
         class.name(),
-        count(*pixels, "pixel"),
-        grouped(*joined as usize),
-        count(*tried, "union")
+        counted(*pixels, "pixel"),
+        grouped(*joined),
+        counted(*tried, "union")
     );
     let Some(refusal) = refusal else { return grown };
     let test = refusal.trial.map_or_else(String::new, |trial| format!(" ({})", chi_square(&trial, '>')));
@@ -265,7 +267,7 @@ fn merging(story: &MergeStory) -> String {
     let union = if refusal.union == Class::Point { "only a point" } else { union };
     format!(
         "{grown}; the last refused, with {}, would be a {union}{test}",
-        count(refusal.neighbor_pixels, "pixel")
+        counted(refusal.neighbor_pixels, "pixel")
     )
 }
 

@@ -1,8 +1,8 @@
 //! The lineage of a region in words.
 
 use super::super::events::Describe;
-use super::{Names, count};
-use crate::describe::grouped;
+use super::Names;
+use crate::describe::{counted, grouped};
 use crate::trace::{Ancestor, Birth, HypothesisStory, JoinedHow};
 
 impl Names {
@@ -10,16 +10,16 @@ impl Names {
     pub fn ancestor(&self, ancestor: &Ancestor) -> String {
         let born = match ancestor.birth {
             Birth::Area { chosen, .. } => {
-                format!("from area {} of {}", chosen.area, count(chosen.pixels, "pixel"))
+                format!("from area {} of {}", chosen.area, counted(chosen.pixels, "pixel"))
             }
             Birth::Part { of, pixels, .. } => {
-                format!("separated from {}: {}", self.hypothesis(of), count(pixels, "pixel"))
+                format!("separated from {}: {}", self.hypothesis(of), counted(pixels, "pixel"))
             }
-            Birth::Picture { pixels, .. } => format!("from the picture: {}", count(pixels, "pixel")),
+            Birth::Picture { pixels, .. } => format!("from the picture: {}", counted(pixels, "pixel")),
             Birth::Marked { fitted, .. } => {
                 format!(
                     "is the skewed T of marked pixels: its first matte line from {}",
-                    count(fitted.pixels, "pixel")
+                    counted(fitted.pixels, "pixel")
                 )
             }
         };
@@ -32,7 +32,7 @@ impl Names {
                 format!("; one line with it: {angle_deg:.1}\u{b0} apart, rms distance {rms:.1} counts")
             }
             JoinedHow::United { taken_px, area_px } => {
-                format!("; a single matte cluster with it: {} of {}", grouped(taken_px as usize), count(area_px, "pixel"))
+                format!("; a single matte cluster with it: {} of {}", grouped(taken_px), counted(area_px, "pixel"))
             }
             JoinedHow::Whole => "; it was separated from this one".to_owned(),
         });
@@ -46,8 +46,10 @@ impl Names {
             sentences.push((step, chosen.sentence(self)));
         }
         if let Some((step, of, pixels)) = story.separated {
-            sentences
-                .push((step, format!("separated from {}: {}", self.hypothesis(of), count(pixels, "pixel"))));
+            sentences.push((
+                step,
+                format!("separated from {}: {}", self.hypothesis(of), counted(pixels, "pixel")),
+            ));
         }
         sentences.extend(story.made.map(|(step, made)| (step, made.sentence(self))));
         sentences.extend(story.searched.map(|(step, searched)| (step, searched.sentence(self))));
@@ -64,7 +66,7 @@ impl Names {
                 }
                 JoinedHow::Merged { angle_deg, .. } => format!("is joined, {angle_deg:.1}\u{b0} off, by"),
                 JoinedHow::United { taken_px, .. } => {
-                    format!("takes {} of the same matte cluster from", count(taken_px, "pixel"))
+                    format!("takes {} of the same matte cluster from", counted(taken_px, "pixel"))
                 }
                 JoinedHow::Whole => "was part of".to_owned(),
             };

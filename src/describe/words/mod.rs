@@ -16,7 +16,7 @@ pub use reason::{reason_label, reason_meaning};
 pub use warnings::sentences;
 pub use what_if::what_if_sentence;
 
-use super::names::{Names, count, ordinal, percent, signed, typographic};
+use super::names::{Names, ordinal, percent, signed, typographic};
 use crate::raster::HypothesisId;
 use crate::trace::{Contest, Measure, Step};
 

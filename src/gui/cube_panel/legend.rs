@@ -76,7 +76,7 @@ fn density(painter: &Painter, cx: &PanelContext, corner: egui::Pos2, fullest: u3
     let most = painter.text(
         end,
         Align2::RIGHT_TOP,
-        format!("{} px a color", crate::describe::grouped(fullest as usize)),
+        format!("{} px a color", crate::describe::grouped(fullest)),
         font,
         cx.palette.secondary,
     );

@@ -218,7 +218,7 @@ fn table_cell(
             widgets::chip(ui, palette, color, &format!("color of hypothesis {}", row_of.hypothesis));
             plain(ui, row_of.hypothesis.to_string());
         }),
-        SortKey::Pixels => number(row, crate::describe::grouped(row_of.pixels as usize)),
+        SortKey::Pixels => number(row, crate::describe::grouped(row_of.pixels)),
         SortKey::Direction => {
             cell(row, |ui| vector(ui, palette, "color of the line", row_of.direction, shows_numbers));
         }

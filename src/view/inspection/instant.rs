@@ -85,7 +85,7 @@ fn of_region(replay: &Replay, names: &RegionNames, region: RegionId) -> Inspecti
 
 /// A number of working pixels in words; `side`: side of a working pixel, pixels of the photograph.
 fn working_pixels(pixels: u32, side: usize) -> String {
-    let counted = counted(pixels as usize, "pixel");
+    let counted = counted(pixels, "pixel");
     if side > 1 { format!("{counted} of {side} \u{d7} {side}") } else { counted }
 }
 

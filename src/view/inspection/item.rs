@@ -171,7 +171,7 @@ fn of_bin(shown: &ResultSnapshot, bin: u32) -> Option<Inspection> {
     let [r, g, b] = found.mean;
     Some(Inspection {
         subject: format!("Color {r:.0} {g:.0} {b:.0}"),
-        verdict: counted(found.count as usize, "pixel"),
+        verdict: counted(found.count, "pixel"),
         tone: Tone::Neutral,
         sentence: "of this color, within a 64th of full scale in each band".to_owned(),
         tests: tests.to_vec(),
