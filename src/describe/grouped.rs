@@ -19,6 +19,22 @@ pub fn counted(number: impl fmt::Display + Ord + Copy, what: &str) -> String {
     format!("{number} {what}{ending}")
 }
 
+/// A sentence of a report with thin spaces between groups of three digits of its numbers. Digits within a word, such as a file name, stay
+/// as they are.
+pub fn with_grouped_numbers(sentence: &str) -> String {
+    let grouped_word = |word: &str| {
+        let number = word.trim_matches(|letter: char| !letter.is_alphanumeric());
+        let is_decimal = number.bytes().all(|letter| letter.is_ascii_digit() || letter == b'.');
+        if is_decimal && number.parse::<f64>().is_ok() {
+            word.replacen(number, &group_whole_part(number), 1)
+        } else {
+            word.to_owned()
+        }
+    };
+    let words: Vec<String> = sentence.split(' ').map(grouped_word).collect();
+    words.join(" ")
+}
+
 /// The text of a number with thin spaces between groups of three digits before the point.
 fn group_whole_part(number: &str) -> String {
     let end = number.find('.').unwrap_or(number.len());
@@ -35,7 +51,7 @@ fn group_whole_part(number: &str) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::{counted, grouped, grouped_decimals};
+    use super::{counted, grouped, grouped_decimals, with_grouped_numbers};
 
     #[test]
     fn one_thing_is_told_in_the_singular() {
@@ -49,6 +65,21 @@ mod tests {
         assert_eq!(
             [0, 999, 1000, 14_452, 1_234_567].map(spaced),
             ["0", "999", "1 000", "14 452", "1 234 567"]
+        );
+    }
+
+    #[test]
+    fn numbers_of_a_sentence_are_grouped_and_names_are_not() {
+        let spaced = |sentence: &str| with_grouped_numbers(sentence).replace('\u{2009}', "_");
+        assert_eq!(
+            spaced(
+                "12345 of 1234567 pixels (9999, 1000.5 counts): 2.25 in IMG_20240131.jpg, a 4000x3000 file"
+            ),
+            "12_345 of 1_234_567 pixels (9_999, 1_000.5 counts): 2.25 in IMG_20240131.jpg, a 4000x3000 file"
+        );
+        assert_eq!(
+            spaced("no number  at \u{2212}1500 \u{2013} 1.2.3000"),
+            "no number  at \u{2212}1_500 \u{2013} 1.2.3000"
         );
     }
 

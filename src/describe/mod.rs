@@ -19,7 +19,7 @@ pub use facts::{
     AmbientAsked, AreaFacts, ImageFacts, LightFacts, ParameterFacts, ParamsFacts, Report, SCHEMA, ScaleFacts,
     Timings,
 };
-pub use grouped::{counted, grouped, grouped_decimals};
+pub use grouped::{counted, grouped, grouped_decimals, with_grouped_numbers};
 pub use light_facts::{
     AmbientFacts, CodingFacts, IlluminantFacts, LightEstimateFacts, NoiseFacts, SecondLampFacts,
 };
@@ -29,7 +29,9 @@ pub use region_facts::{HighlightBranchFacts, RegionFacts};
 pub use scores::Scores;
 pub use skewed_t_facts::SkewedTFacts;
 pub use trace_line::{TRACE_SCHEMA, schema_line, second_look_line, second_look_trace_line, trace_line};
-pub use words::{Condensed, condense, reason_label, reason_meaning, sentences, what_if_sentence};
+pub use words::{
+    Condensed, condense, grouped_sentences, reason_label, reason_meaning, sentences, what_if_sentence,
+};
 
 /// Name of the report in a result folder.
 pub const FILE_NAME: &str = "report.json";

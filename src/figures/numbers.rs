@@ -7,6 +7,11 @@ pub fn grouped(number: usize) -> String {
     crate::describe::grouped(number).replace('\u{2009}', "\u{202f}")
 }
 
+/// A sentence with its numbers in groups of three digits, at which no line is broken.
+pub fn with_grouped_numbers(sentence: &str) -> String {
+    crate::describe::with_grouped_numbers(sentence).replace('\u{2009}', "\u{202f}")
+}
+
 /// A share as percent with one decimal.
 pub fn percent(part: usize, whole: usize) -> String {
     format!("{:.1}\u{a0}%", 100.0 * part as f64 / whole.max(1) as f64)

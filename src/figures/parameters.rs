@@ -1,7 +1,7 @@
 //! The control parameters (table 6), the switches, the accuracy and the warnings.
 
 use super::html::{Column, Page, Row, Table, escaped};
-use super::numbers::{decimals, short};
+use super::numbers::{decimals, short, with_grouped_numbers};
 use super::scene::Scene;
 use crate::params::{Method, Parameter, PhoenixParameter, Reading, Switch};
 
@@ -189,6 +189,7 @@ pub fn add_warnings(page: &mut Page, scene: &Scene) {
     if warnings.is_empty() {
         page.paragraph("The analysis gave no warning.");
     } else {
+        let warnings: Vec<String> = warnings.iter().map(|warning| with_grouped_numbers(warning)).collect();
         page.list(&warnings);
     }
 }

@@ -7,7 +7,7 @@ mod table_columns;
 use super::theme::{SMALL_PT, ThemeColors};
 use super::{PanelContext, context_menu, widgets};
 use crate::app::Edit;
-use crate::describe::sentences;
+use crate::describe::grouped_sentences;
 use crate::intrinsic::{HighlightBranch, RegionReflection};
 use crate::view::{Item, ResultSnapshot};
 use egui::accesskit::Role;
@@ -324,14 +324,14 @@ fn number_cell(row: &mut TableRow, text: RichText, tip: Option<String>) {
 
 /// Shows the first of a region's warnings, in the color of warnings where the model does not fit; the tooltip has all.
 fn notes(ui: &mut Ui, region: &RegionReflection, palette: &ThemeColors) {
-    let Some(first) = region.warnings.first() else { return };
-    let more = region.warnings.len() - 1;
-    let text = if more > 0 { format!("{first} (+{more})") } else { first.to_string() };
+    let warnings = grouped_sentences(&region.warnings);
+    let Some((first, others)) = warnings.split_first() else { return };
+    let text = if others.is_empty() { first.clone() } else { format!("{first} (+{})", others.len()) };
     let color = if region.model_fits() { palette.secondary } else { palette.warning };
     let label = Label::new(RichText::new(text).size(SMALL_PT).color(color))
         .truncate()
         .show_tooltip_when_elided(false);
-    ui.add(label.selectable(false)).on_hover_text(sentences(&region.warnings).join("\n"));
+    ui.add(label.selectable(false)).on_hover_text(warnings.join("\n"));
 }
 
 /// Tooltip about the shades on which a region's highlights lie, one line per highlight line (section 7.4).

@@ -3,6 +3,7 @@
 use crate::app::read::TRUTH_UNUSED;
 use crate::app::state::own_layer;
 use crate::app::{Severity, State};
+use crate::describe::with_grouped_numbers;
 use crate::truth::GroundTruth;
 use crate::view::{Elsewhere, ElsewhereKind, Layer, Picture};
 use std::path::Path;
@@ -54,5 +55,5 @@ pub(super) fn with_unused_truth(state: &mut State, path: &Path, picture: &Pictur
 
 /// A warning of a photograph that was read, as a notice.
 pub(super) fn warning_of(picture: &Picture, warning: &str) -> String {
-    format!("{}: {warning}", picture.origin.name())
+    format!("{}: {}", picture.origin.name(), with_grouped_numbers(warning))
 }

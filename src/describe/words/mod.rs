@@ -13,7 +13,7 @@ mod what_if;
 
 pub use history::{Condensed, condense};
 pub use reason::{reason_label, reason_meaning};
-pub use warnings::sentences;
+pub use warnings::{grouped_sentences, sentences};
 pub use what_if::what_if_sentence;
 
 use super::names::{Names, ordinal, percent, signed, typographic};

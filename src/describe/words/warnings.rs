@@ -3,13 +3,19 @@
 use crate::analysis::RunWarning;
 use crate::baseline::{LEAST_MARKED_PX, NoSkewedT};
 use crate::describe::light_words::light_reason;
+use crate::describe::with_grouped_numbers;
 use crate::intrinsic::{AngleWarning, RegionWarning};
 use crate::reflection::MIN_ANGLE_DEG;
 use std::fmt;
 
-/// The warnings as sentences.
+/// The warnings as sentences of a report, which hold numbers as they are.
 pub fn sentences(warnings: &[impl fmt::Display]) -> Vec<String> {
     warnings.iter().map(ToString::to_string).collect()
+}
+
+/// The warnings as sentences to be read, with thin spaces between groups of three digits of their numbers.
+pub fn grouped_sentences(warnings: &[impl fmt::Display]) -> Vec<String> {
+    warnings.iter().map(|warning| with_grouped_numbers(&warning.to_string())).collect()
 }
 
 impl fmt::Display for RunWarning {

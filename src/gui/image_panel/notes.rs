@@ -1,6 +1,6 @@
 //! The notes of the analysis over the picture, each of which can be dismissed.
 
-use crate::describe::sentences;
+use crate::describe::grouped_sentences;
 use crate::gui::PanelContext;
 use crate::gui::theme::SMALL_PT;
 use crate::view::Origin;
@@ -25,7 +25,7 @@ impl DismissedNotes {
             *self = Self { of: Some(picture.origin.clone()), notes: Vec::new() };
         }
         let mut top = view.top() + 6.0;
-        for note in sentences(&shown.analysis.warnings) {
+        for note in grouped_sentences(&shown.analysis.warnings) {
             if self.notes.contains(&note) {
                 continue;
             }
