@@ -138,7 +138,8 @@ pub fn table(scene: &Scene, fits: &[Option<[f64; 3]>], counterpart: &'static str
     if lights.measured.is_some() {
         columns.push(("surface error".to_owned(), Column::Number));
     }
-    let regions = scene.report.regions.iter().zip(fits).zip(&bodies).zip(&scene.shown.region_colors);
+    let regions = &scene.shown.analysis.intrinsic.regions;
+    let regions = regions.iter().zip(fits).zip(&bodies).zip(&scene.shown.region_colors);
     let mut rows: Vec<Row> = regions
         .take(MOST_ROWS)
         .map(|(((region, &fit), body), &color)| {
@@ -147,7 +148,7 @@ pub fn table(scene: &Scene, fits: &[Option<[f64; 3]>], counterpart: &'static str
                 grouped(region.pixels),
                 shown_vector(Some(region.body)),
                 shown_vector(fit),
-                region.surface.map_or_else(|| "\u{2013}".to_owned(), |_| grouped(region.highlight_pixels)),
+                region.highlights().map_or_else(|| "\u{2013}".to_owned(), grouped),
             ];
             if has_truth {
                 cells.push(
