@@ -323,6 +323,8 @@ pub(super) const fn own_layer(kind: ElsewhereKind) -> Layer {
 /// The kind of a notice.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Severity {
+    /// The debugger answers a key.
+    Answer,
     /// Something was done.
     Done,
     /// Something may be wrong.
@@ -331,8 +333,8 @@ pub enum Severity {
     Error,
 }
 
-/// A sentence for the person at the screen. Panels show a warning and an error until the notice is dismissed, and a success for
-/// some seconds.
+/// A sentence for the person at the screen. Panels show a warning and an error until the notice is dismissed, and a success or
+/// an answer for some seconds.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
     /// Identifies the notice when it is dismissed.

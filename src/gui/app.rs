@@ -4,6 +4,7 @@ use super::action::{Action, CubeAction};
 use super::command_palette::CommandPalette;
 use super::compact_dock::CompactDock;
 use super::cube_choices::{NEEDS_PLANE, NamedView};
+use super::debugger_answers::apply_answered;
 use super::dock::{Dock, Panels, TAB_BAR_PT};
 use super::dropped_files::{open_dropped, open_pasted};
 use super::files::Dialogs;
@@ -176,8 +177,9 @@ impl App {
             // Without this request, the change would appear only when the pointer moves.
             ui.ctx().request_repaint();
         }
+        let tells_answers = self.content.tells_answers();
         for command in commands {
-            self.application.apply(command);
+            apply_answered(&mut self.application, command, tells_answers);
         }
         update_title(ui, self.application.state());
     }
@@ -186,7 +188,8 @@ impl App {
     fn play(&mut self, ui: &Ui) {
         if self.application.state().debugger.playing.is_some() {
             let seconds = f64::from(ui.input(|input| input.stable_dt));
-            self.application.apply(Command::Debug(DebugCommand::Tick(seconds)));
+            let tick = Command::Debug(DebugCommand::Tick(seconds));
+            apply_answered(&mut self.application, tick, self.content.tells_answers());
             ui.ctx().request_repaint();
         }
     }
@@ -357,6 +360,15 @@ impl WindowContent {
         self.raise(Pane::Colors);
         if !self.panels.cube.go_to_view(cx.state, view) {
             cx.send(ViewCommand::Notify(Severity::Warning, NEEDS_PLANE.to_owned()));
+        }
+    }
+
+    /// Whether the timeline told in the last frame what the debugger answers: neither hidden, nor behind another tab, nor too small.
+    fn tells_answers(&self) -> bool {
+        match self.single_pane {
+            Some(single) => single == Pane::Timeline,
+            None if self.compact_dock.is_in_use => self.compact_dock.is_in_front(Pane::Timeline),
+            None => self.dock.rect_of(Pane::Timeline).is_some_and(timeline_panel::has_room_for_answers),
         }
     }
 

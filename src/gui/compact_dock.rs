@@ -50,6 +50,11 @@ impl CompactDock {
         }
     }
 
+    /// Whether the panel's tab is in front of the others.
+    pub fn is_in_front(&self, pane: Pane) -> bool {
+        self.tabs.as_ref().is_some_and(|tabs| tabs.dock.is_in_front(pane))
+    }
+
     /// Brings the panel's tab to the front.
     pub fn activate(&mut self, pane: Pane) {
         if let Some(tabs) = &mut self.tabs {

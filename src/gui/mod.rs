@@ -18,6 +18,7 @@ mod copied_texts;
 mod cube_choices;
 mod cube_panel;
 mod cursor_owners;
+mod debugger_answers;
 mod dialog;
 mod dock;
 mod dropped_files;
@@ -66,7 +67,6 @@ mod typed_path;
 mod verdict_strip;
 mod view_export;
 mod watch_panel;
-
 mod widgets;
 mod window;
 

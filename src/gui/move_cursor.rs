@@ -9,6 +9,10 @@ use crate::view::Item;
 /// Sends the command of an action on the debugger.
 pub fn move_cursor(action: DebugAction, cx: &mut PanelContext) {
     let state = cx.state;
+    let is_setting = matches!(action, DebugAction::Loop | DebugAction::Record);
+    if let Some(reason) = why_no_trace(state).filter(|_| !is_setting) {
+        return cx.send(ViewCommand::Notify(Severity::Answer, reason.to_owned()));
+    }
     let command = match action {
         DebugAction::Play(direction) => {
             let stops =
@@ -37,6 +41,16 @@ pub fn move_cursor(action: DebugAction, cx: &mut PanelContext) {
         }
     };
     cx.send(command);
+}
+
+/// Why there is no cursor to move; none where there is one.
+fn why_no_trace(state: &State) -> Option<&'static str> {
+    match (&state.debugger.replay, &state.picture) {
+        (Some(_), _) => None,
+        (None, None) => Some("open a photograph first"),
+        (None, Some(_)) if state.view.debug.open => Some("the decisions are being recorded"),
+        (None, Some(_)) => Some("no decisions are recorded: D records them"),
+    }
 }
 
 /// Why there is nothing to run to.

@@ -10,13 +10,13 @@ use std::time::Duration;
 const WIDTH_PT: f32 = 560.0;
 /// Largest number of notices shown at once; of more, the newest are shown.
 const MOST_NOTICES: usize = 4;
-/// Time after which the notice of a success goes by itself, seconds. Warnings and errors stay until they are dismissed.
-const SUCCESS_SECONDS: f64 = 6.0;
+/// Time after which the notice of a success or of an answer goes by itself, seconds. Warnings and errors stay until they are dismissed.
+const PASSING_SECONDS: f64 = 6.0;
 
 /// The notices that are shown.
 #[derive(Default)]
 pub struct Notices {
-    /// The notices of successes with the time at which each was first shown, seconds.
+    /// The notices that go by themselves, with the time at which each was first shown, seconds.
     shown_since: Vec<(u64, f64)>,
     /// Number of notices in the last frame.
     count: usize,
@@ -30,7 +30,7 @@ impl Notices {
             *self = Self::default();
             return;
         }
-        self.let_successes_go(ui, cx);
+        self.let_passing_go(ui, cx);
         let room = ui.ctx().content_rect();
         let place = pos2(room.center().x, floor - 8.0);
         let id = Id::unique("notices");
@@ -56,15 +56,16 @@ impl Notices {
         });
     }
 
-    /// Dismisses the successes that have been shown long enough.
-    fn let_successes_go(&mut self, ui: &Ui, cx: &mut PanelContext) {
+    /// Dismisses the successes and answers that have been shown long enough.
+    fn let_passing_go(&mut self, ui: &Ui, cx: &mut PanelContext) {
         let now = ui.input(|input| input.time);
-        let successes = cx.state.notices.iter().filter(|notice| notice.severity == Severity::Done);
+        let passes = |notice: &&Notice| matches!(notice.severity, Severity::Done | Severity::Answer);
+        let passing = cx.state.notices.iter().filter(passes);
         let since =
             |id: u64| self.shown_since.iter().find(|(known, _)| *known == id).map(|(_, since)| *since);
-        self.shown_since = successes.map(|notice| (notice.id, since(notice.id).unwrap_or(now))).collect();
+        self.shown_since = passing.map(|notice| (notice.id, since(notice.id).unwrap_or(now))).collect();
         for &(id, since) in &self.shown_since {
-            let rest = SUCCESS_SECONDS - (now - since);
+            let rest = PASSING_SECONDS - (now - since);
             if rest <= 0.0 {
                 cx.send(ViewCommand::Dismiss(id));
             } else {
@@ -77,6 +78,7 @@ impl Notices {
 /// Shows one notice: its kind, its sentence, which wraps, and the button that dismisses the notice.
 fn row(ui: &mut Ui, cx: &mut PanelContext, notice: &Notice) {
     let (severity_text, tone) = match notice.severity {
+        Severity::Answer => ("Timeline", cx.palette.secondary),
         Severity::Done => ("Done", cx.palette.secondary),
         Severity::Warning => ("Note", cx.palette.accent),
         Severity::Error => ("Error", cx.palette.error),

@@ -10,6 +10,7 @@ mod track;
 mod transport;
 
 pub use track::track_id;
+pub use transport::has_room_for_answers;
 
 use super::{PanelContext, widgets};
 use crate::app::{Command, DebugCommand, DebugSettings};

@@ -51,8 +51,8 @@ pub struct KeyListeners {
     pub color_space_rect: Option<Rect>,
     /// The id of the timeline's track. While the track has the focus, the debugger's keys still work.
     pub track: Id,
-    /// Whether there is a trace to move in.
-    pub has_trace: bool,
+    /// Whether a photograph is open, whose decisions are or can be recorded.
+    pub has_photograph: bool,
     /// Whether Enter closes an outline.
     pub draws_polygon: bool,
 }
@@ -61,7 +61,7 @@ impl KeyListeners {
     /// The listeners of a state, the color space being shown at `color_space_rect`.
     pub fn of(state: &State, color_space_rect: Option<Rect>, track: Id) -> Self {
         let draws_polygon = [state.view.image.tool, state.view.cube.tool].contains(&Tool::Polygon);
-        Self { color_space_rect, track, has_trace: state.debugger.replay.is_some(), draws_polygon }
+        Self { color_space_rect, track, has_photograph: state.picture.is_some(), draws_polygon }
     }
 
     /// Whether no listener takes the key of a shortcut, so that the shortcut's action is done.
@@ -96,7 +96,7 @@ impl KeyListeners {
             Key::Home | Key::D => on_view && !in_color_space,
             _ => true,
         };
-        is_free && (self.has_trace || action == DebugAction::Record)
+        is_free && (self.has_photograph || action == DebugAction::Record)
     }
 }
 

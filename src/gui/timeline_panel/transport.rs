@@ -16,7 +16,7 @@ use crate::trace::{Replay, Step};
 use crate::view::{Tone, step_verdict};
 use Direction::{Back, Forward};
 use egui::accesskit::Role;
-use egui::{ComboBox, DragValue, Label, RichText, Slider, Ui, WidgetInfo, vec2};
+use egui::{ComboBox, DragValue, Label, Rect, RichText, Slider, Ui, WidgetInfo, vec2};
 
 /// Width that the sentence needs beside the controls, points; with less, the sentence is shown below the controls.
 const SENTENCE_PT: f32 = 130.0;
@@ -24,6 +24,14 @@ const SENTENCE_PT: f32 = 130.0;
 const WORDS_PT: f32 = 800.0;
 /// Smallest height of a panel with room for a second row above the track, points.
 const TWO_ROWS_PT: f32 = 88.0;
+
+/// Width of a panel with one row whose sentence is not cut where it answers a key, points.
+const ANSWERS_PT: f32 = 1100.0;
+
+/// Whether a timeline panel has room for what the debugger answers to a key.
+pub fn has_room_for_answers(panel: Rect) -> bool {
+    panel.width() >= ANSWERS_PT || panel.height() - 8.0 >= TWO_ROWS_PT
+}
 
 /// A button: icon, accessible name, action and tooltip.
 type Control = (PlaybackIcon, &'static str, DebugAction, &'static str);

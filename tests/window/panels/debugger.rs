@@ -1,17 +1,18 @@
 //! Tests of the debugger: playing, seeking, stepping, breakpoints, and the texts about the step at the cursor.
 
 use crate::window::{
-    Window, apply, at, choose, click, drag, item, named, press, says, state, tiny_window, with_gpu, zoom_in,
+    Window, apply, at, choose, click, drag, item, named, press, says, state, tap, tiny_window, with_gpu,
+    zoom_in,
 };
 use dichroscope::app::{
-    Breakpoint, Command, Condition, DebugCommand, DebugSettings, Direction, Edit, Goal, StepUnit, ViewCommand,
+    Breakpoint, Command, Condition, DebugCommand, DebugSettings, Direction, Edit, StepUnit, ViewCommand,
 };
 use dichroscope::gui::Pane;
 use dichroscope::raster::HypothesisId;
 use dichroscope::trace::{Kind, Replay, Step, Topic, Trace};
 use dichroscope::view::{Item, watch};
 use egui::accesskit::Role;
-use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2, vec2};
+use egui::{Event, Key, Modifiers, Pos2, pos2, vec2};
 use egui_kittest::kittest::Queryable;
 use std::sync::Arc;
 
@@ -19,19 +20,19 @@ fn replay(window: &Window) -> &Replay {
     state(window).debugger.replay.as_ref().expect("decisions are recorded")
 }
 
-fn trace(window: &Window) -> Arc<Trace> {
+pub fn trace(window: &Window) -> Arc<Trace> {
     Arc::clone(replay(window).trace())
 }
 
-fn cursor(window: &Window) -> usize {
+pub fn cursor(window: &Window) -> usize {
     replay(window).at()
 }
 
-fn seek(window: &mut Window, n: usize) {
+pub fn seek(window: &mut Window, n: usize) {
     apply(window, Command::Debug(DebugCommand::Seek(n)));
 }
 
-fn settings(window: &mut Window, change: impl FnOnce(&mut DebugSettings)) {
+pub fn settings(window: &mut Window, change: impl FnOnce(&mut DebugSettings)) {
     let mut settings = state(window).view.debug.clone();
     change(&mut settings);
     apply(window, Command::Debug(DebugCommand::Settings(settings)));
@@ -47,18 +48,7 @@ fn hypothesis(window: &Window) -> (HypothesisId, std::ops::Range<usize>) {
     found.expect("there is a hypothesis")
 }
 
-/// A click with press and release in one frame.
-fn tap(window: &mut Window, pos: Pos2) {
-    window.hover_at(pos);
-    window.run_steps(1);
-    for pressed in [true, false] {
-        let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
-        window.input_mut().events.push(Event::PointerButton { pos, button, pressed, modifiers });
-    }
-    window.run_steps(3);
-}
-
-fn plain(window: &mut Window, key: Key) {
+pub fn plain(window: &mut Window, key: Key) {
     press(window, Modifiers::NONE, key);
 }
 
@@ -419,44 +409,4 @@ fn a_narrow_window_clips_nothing() {
         let track = named(&window, Role::Slider, "Timeline").rect();
         assert!(track.height() > 20.0 && track.bottom() <= height, "{track} at {width}");
     }
-}
-
-#[test]
-fn a_move_that_finds_nothing_says_so_in_the_timeline() {
-    let mut window = tiny_window();
-    let end = trace(&window).len();
-    plain(&mut window, Key::ArrowRight);
-    assert!(says(&window, "Nothing follows the result") && cursor(&window) == end);
-    plain(&mut window, Key::Enter);
-    assert!(says(&window, "No hypothesis follows: the cursor stays"));
-    plain(&mut window, Key::Home);
-    assert!(!says(&window, "No hypothesis follows"), "the next move has an answer of its own");
-    plain(&mut window, Key::Comma);
-    assert!(says(&window, "Nothing comes before the beginning"));
-    plain(&mut window, Key::N);
-    assert!(says(&window, "No breakpoint is set: add one in Breakpoints") && cursor(&window) == 0);
-    let last = trace(&window).blocks().last().unwrap().steps.end;
-    seek(&mut window, last);
-    press(&mut window, Modifiers::SHIFT, Key::ArrowRight);
-    assert!(says(&window, "No hypothesis follows: at the end of the stage") && cursor(&window) > last);
-    let breakpoint = |enabled| Breakpoint { enabled, condition: Condition::HypothesisRejected };
-    settings(&mut window, |settings| settings.breakpoints = vec![breakpoint(false)]);
-    plain(&mut window, Key::N);
-    assert!(says(&window, "Every breakpoint is off") && cursor(&window) < end);
-    settings(&mut window, |settings| settings.breakpoints = vec![breakpoint(true)]);
-    plain(&mut window, Key::N);
-    assert!(says(&window, "No stop at a breakpoint follows: at the result") && cursor(&window) == end);
-}
-
-#[test]
-fn run_to_a_goal_that_is_not_there_ends_at_the_end() {
-    let mut window = tiny_window();
-    plain(&mut window, Key::End);
-    let last = trace(&window).blocks().last().unwrap().steps.end;
-    seek(&mut window, last);
-    let goal = Command::Debug(DebugCommand::RunTo(Goal::Kind(Kind::Window), Direction::Forward));
-    apply(&mut window, goal);
-    assert_eq!(cursor(&window), trace(&window).len());
-    let missed = format!("No step \u{201c}{}\u{201d} follows: at the result", Kind::Window.name());
-    assert!(says(&window, &missed), "{missed}");
 }

@@ -13,6 +13,7 @@ mod commands;
 mod compare;
 mod cursor;
 mod debugger;
+mod debugger_answers;
 mod elsewhere;
 mod exports;
 mod first_minute;

@@ -286,6 +286,17 @@ pub fn drag(window: &mut Window, points: &[Pos2], modifiers: Modifiers) {
     window.run_steps(2);
 }
 
+/// A click with press and release in one frame.
+pub fn tap(window: &mut Window, pos: Pos2) {
+    window.hover_at(pos);
+    window.run_steps(1);
+    for pressed in [true, false] {
+        let (button, modifiers) = (PointerButton::Primary, Modifiers::NONE);
+        window.input_mut().events.push(Event::PointerButton { pos, button, pressed, modifiers });
+    }
+    window.run_steps(FRAMES);
+}
+
 /// A double click, in one frame because a frame of the harness takes a quarter of a second.
 pub fn double_click(window: &mut Window, pos: Pos2) {
     window.hover_at(pos);
