@@ -117,12 +117,13 @@ impl ImagePanel {
             readout::show(ui, state, palette, is_low);
         });
         self.show_verdict(ui, cx, &mut debug, bar, is_low);
-        let column = Panel::left("tools").resizable(false).exact_size(icons::SIDE_PT + 8.0);
+        let columns = toolbar::columns_needed(ui.available_height() - 8.0, &settings);
+        let column = Panel::left("tools").resizable(false).exact_size(toolbar::columns_width(columns) + 8.0);
         column.frame(bar.inner_margin(4)).show(ui, |ui| {
-            // In a low panel the tools are scrolled.
+            // Where two columns have no room either, the tools are scrolled.
             let area = egui::ScrollArea::vertical();
             let area = area.scroll_bar_visibility(egui::scroll_area::ScrollBarVisibility::AlwaysHidden);
-            area.show(ui, |ui| toolbar::column(ui, palette, &mut settings));
+            area.show(ui, |ui| toolbar::tools(ui, palette, &mut settings, columns));
         });
         let (width, height) = picture.size();
         let size = vec2(width as f32, height as f32);

@@ -231,14 +231,36 @@ fn slider(ui: &mut Ui, name: &str, tip: &str, slider: Slider<'_>) -> bool {
     slider.double_clicked() || label.double_clicked()
 }
 
-/// Shows the column of tools, and the field of the brush's radius.
-pub fn column(ui: &mut Ui, palette: &ThemeColors, settings: &mut ImageSettings) {
-    ui.spacing_mut().item_spacing.y = 2.0;
-    for (tool, name, tip) in TOOLS {
-        let tip = format!("{name} ({}). {tip}", keys_of(ui.ctx(), Action::Tool(tool)));
-        if icons::toggle(ui, palette, ToolbarIcon::Tool(tool), settings.tool == tool, name, &tip).clicked() {
-            settings.tool = tool;
-        }
+/// Gap between tools, points.
+const TOOL_GAP_PT: f32 = 2.0;
+/// Height of the field of the brush's radius, points.
+const RADIUS_PT: f32 = 18.0;
+
+/// Number of columns that the tools need in a height, points: two where one column is too high.
+pub fn columns_needed(height: f32, settings: &ImageSettings) -> usize {
+    let radius = if settings.tool == Tool::Brush { RADIUS_PT + TOOL_GAP_PT } else { 0.0 };
+    let one_column = TOOLS.len() as f32 * (icons::SIDE_PT + TOOL_GAP_PT) - TOOL_GAP_PT + radius;
+    if one_column <= height { 1 } else { 2 }
+}
+
+/// Width of so many columns of tools, points.
+pub fn columns_width(columns: usize) -> f32 {
+    columns as f32 * (icons::SIDE_PT + TOOL_GAP_PT) - TOOL_GAP_PT
+}
+
+/// Shows the tools in so many columns, and the field of the brush's radius.
+pub fn tools(ui: &mut Ui, palette: &ThemeColors, settings: &mut ImageSettings, columns: usize) {
+    ui.spacing_mut().item_spacing = vec2(TOOL_GAP_PT, TOOL_GAP_PT);
+    for row in TOOLS.chunks(columns) {
+        ui.horizontal(|ui| {
+            for &(tool, name, tip) in row {
+                let tip = format!("{name} ({}). {tip}", keys_of(ui.ctx(), Action::Tool(tool)));
+                let is_chosen = settings.tool == tool;
+                if icons::toggle(ui, palette, ToolbarIcon::Tool(tool), is_chosen, name, &tip).clicked() {
+                    settings.tool = tool;
+                }
+            }
+        });
     }
     if settings.tool == Tool::Brush {
         // The field must not be wider than the tools.
@@ -249,7 +271,7 @@ pub fn column(ui: &mut Ui, palette: &ThemeColors, settings: &mut ImageSettings) 
         let before = settings.brush_px;
         let radius = DragValue::new(&mut settings.brush_px).range(0.5..=500.0).speed(0.25);
         let radius = radius.max_decimals(decimals);
-        let mut radius = ui.add_sized(vec2(icons::SIDE_PT, 18.0), radius);
+        let mut radius = ui.add_sized(vec2(icons::SIDE_PT, RADIUS_PT), radius);
         keep_unless_edited(&mut radius, before, &mut settings.brush_px, |v| format!("{v:.decimals$}"));
         set_accessible_name(&radius, "Brush radius", f64::from(settings.brush_px));
         radius.on_hover_text("Radius of the brush, pixels of the picture");

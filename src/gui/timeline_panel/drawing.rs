@@ -9,9 +9,10 @@ use egui::{Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Stroke, StrokeKind
 /// Smallest distance of steps at which single steps are painted, points.
 const TICK_PT: f32 = 4.0;
 /// Smallest height of a bar with a name, points.
-const NAMED_PT: f32 = 12.0;
+pub const NAMED_PT: f32 = 12.0;
 
-/// Paints the track: density, stages, passes, blocks, single steps if neighboring steps are far enough apart, and the cursor.
+/// Paints the track: density, stages, passes, blocks, single steps if neighboring steps are far enough apart, and the cursor. A row without
+/// height is left out.
 /// `density` is the number of decisions per column of the track.
 pub fn draw(
     painter: &Painter,
@@ -22,7 +23,10 @@ pub fn draw(
     density: &[usize],
 ) {
     let (palette, trace) = (cx.palette, replay.trace());
-    bars(painter, palette, scale, lanes.density, density);
+    let has_density = lanes.density.is_positive();
+    if has_density {
+        bars(painter, palette, scale, lanes.density, density);
+    }
     let now = trace.stage_at(replay.at().saturating_sub(1));
     for (index, (stage, steps)) in trace.stages().enumerate() {
         let fill = if index % 2 == 0 { palette.well } else { palette.line };
@@ -40,11 +44,13 @@ pub fn draw(
         );
     }
     painter.rect_filled(lanes.blocks, 0.0, palette.well.gamma_multiply(0.6));
-    if lanes.passes.height() < NAMED_PT {
+    if lanes.passes.height() < NAMED_PT && lanes.blocks.height() >= NAMED_PT {
         names_of_empty(painter, palette, scale, lanes.blocks, trace);
     }
     blocks(painter, cx, scale, lanes.blocks, trace);
-    ticks(painter, palette, scale, lanes.density, trace);
+    if has_density {
+        ticks(painter, palette, scale, lanes.density, trace);
+    }
     cursor(painter, palette, scale, lanes, replay.at());
 }
 

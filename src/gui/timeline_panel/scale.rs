@@ -1,9 +1,13 @@
 //! The positions of the track's rows and steps on the screen.
 
+use super::drawing::NAMED_PT;
 use crate::view::{TimelineAxis, TimelineSection};
 use egui::{Rect, pos2, vec2};
 
-/// Rows of the track, from top to bottom.
+/// Height below which a track is low, points.
+const LOW_PT: f32 = 44.0;
+
+/// Rows of the track, from top to bottom; a row without room is empty.
 pub struct Lanes {
     /// The row of the numbers of decisions.
     pub density: Rect,
@@ -56,18 +60,43 @@ impl Lanes {
     /// The rows of a track that fills `rect`.
     pub fn of(rect: Rect) -> Self {
         let height = rect.height();
-        let density = (height * 0.22).clamp(0.0, 36.0);
-        let stages = (height * 0.26).clamp(6.0, 16.0);
+        // A low track has the names of the stages and the blocks alone.
+        let is_low = height < LOW_PT;
+        let density = if is_low { 0.0 } else { (height * 0.22).min(36.0) };
+        let stages = (height * 0.26).clamp(NAMED_PT + 1.0, 16.0);
         // Passes have names where there is room for them.
-        let passes = if height >= 96.0 { 14.0 } else { 4.0 };
+        let passes = if height >= 96.0 {
+            14.0
+        } else if is_low {
+            0.0
+        } else {
+            4.0
+        };
         let mut top = rect.top();
         let mut lane = |height: f32| {
             let lane = Rect::from_min_size(pos2(rect.left(), top), vec2(rect.width(), height));
-            top += height + 1.0;
+            top += if height > 0.0 { height + 1.0 } else { 0.0 };
             lane
         };
         let (density, stages, passes) = (lane(density), lane(stages), lane(passes));
         let blocks = Rect::from_min_max(pos2(rect.left(), top), rect.max);
         Self { density, stages, passes, blocks }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_track_of_any_height_has_room_for_the_names_of_the_stages_and_no_row_leaves_it() {
+        for height in [26.0, 43.0, 44.0, 60.0, 96.0, 300.0] {
+            let rect = Rect::from_min_size(pos2(8.0, 700.0), vec2(900.0, height));
+            let Lanes { density, stages, passes, blocks } = Lanes::of(rect);
+            assert!(stages.height() >= NAMED_PT, "{height}: {stages}");
+            let rows = [density, stages, passes, blocks];
+            assert!(rows.is_sorted_by(|above, below| above.bottom() <= below.top()), "{height}: {rows:?}");
+            assert!(blocks.height() >= 8.0 && blocks.bottom() == rect.bottom(), "{height}: {blocks}");
+        }
     }
 }
