@@ -94,10 +94,12 @@ impl ToolState {
             )
         });
         let is_pressed_here = response.is_pointer_button_down_on();
+        // A tap is a press and its release within one frame: the button is up again when the frame is drawn.
+        let is_begun = pressed && (is_pressed_here || response.clicked_by(PointerButton::Primary));
         if let Some(pointer) = pointer.filter(|_| is_pressed_here || response.hovered()) {
             self.pointer_px = place.image_from_screen(pointer);
         }
-        if pressed && is_pressed_here && space {
+        if is_begun && space {
             self.gesture = PendingGesture::Pan;
         }
         let primary = response.dragged_by(PointerButton::Primary);
@@ -120,7 +122,7 @@ impl ToolState {
             Tool::Pointer => select_by_click(context, cx, settings, modifiers),
             Tool::Polygon => self.extend_polygon(ui, context, cx, modifiers),
             _ => {
-                if pressed && is_pressed_here {
+                if is_begun {
                     self.begin_drag(place, cx, modifiers, settings.brush_px);
                 } else if is_pressed_here {
                     self.continue_drag(place, cx, modifiers, settings.brush_px);

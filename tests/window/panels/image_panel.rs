@@ -1,6 +1,8 @@
 //! Tests of the image panel on the sample scene: layers, clicks, and marking with tools.
 
-use crate::window::{Fixture, SIZE, Window, region, with_gpu};
+use crate::window::{
+    Fixture, SIZE, Window, apply, at, named, region, state, tap, tiny_window, with_gpu, zoom_in,
+};
 use dichroscope::app::{Edit, ViewCommand, ViewSettings};
 use dichroscope::gui::testing::Placement;
 use dichroscope::raster::PixelIndex;
@@ -288,4 +290,42 @@ fn a_locked_readout_stays_with_the_selected_pixel() {
     move_to(&mut harness, place_of_other);
     harness.run_steps(2);
     assert!(harness.query_by_label_contains(&words(other)).is_some(), "the pointer is followed again");
+}
+
+#[test]
+fn a_tap_within_a_frame_is_a_gesture_of_the_tool() {
+    let mut window = tiny_window();
+    zoom_in(&mut window);
+    let place = at(&window, 60.5, 75.5);
+    let choose = |window: &mut Window, tool: Tool| {
+        let image = ImageSettings { tool, ..view(window).image };
+        apply(window, ViewCommand::Image(image));
+    };
+    choose(&mut window, Tool::Brush);
+    tap(&mut window, place);
+    assert!(marked(&window) > 0, "a dab of the brush");
+    choose(&mut window, Tool::Rectangle);
+    tap(&mut window, place);
+    assert_eq!(marked(&window), 0, "a click with a marking tool ends the marks");
+    let before = state(&window).document.params.illuminant;
+    choose(&mut window, Tool::WhitePatch);
+    tap(&mut window, place);
+    assert_ne!(state(&window).document.params.illuminant, before, "{:?}", state(&window).notices);
+}
+
+#[test]
+fn every_tool_is_in_view_in_a_small_window() {
+    let mut window = tiny_window();
+    for (height, tool) in [(600.0, Tool::Pointer), (560.0, Tool::Brush), (900.0, Tool::Brush)] {
+        window.set_size(vec2(900.0, height));
+        let image = ImageSettings { tool, ..view(&window).image };
+        apply(&mut window, ViewCommand::Image(image));
+        window.run_steps(3);
+        let picture = named(&window, Role::Image, "Picture").rect();
+        for name in ["Pointer", "Rectangle", "Lasso", "Polygon", "Brush", "Profile line", "White patch"] {
+            let rect = window.get_by_role_and_label(Role::Button, name).rect();
+            assert!(rect.top() >= picture.top() && rect.bottom() <= picture.bottom(), "{name} at {height}");
+            assert!(rect.right() <= picture.left(), "{name} is no part of the picture");
+        }
+    }
 }
