@@ -126,6 +126,20 @@ impl State {
         Some((preview, selected))
     }
 
+    /// The preview that views show, and in it the region that is selected as a region, whose outline views draw.
+    pub fn outlined_in_preview(&self) -> Option<(&Preview, RegionId)> {
+        let is_region = matches!(self.document.selection.item, Some(Item::Region(_)));
+        let (preview, region) = self.shown_preview().filter(|_| is_region && self.followed().is_none())?;
+        Some((preview, region?))
+    }
+
+    /// The region of the result shown that has the color of a region of the preview.
+    pub fn region_of_preview(&self, region: RegionId) -> Option<RegionId> {
+        let color = self.preview.as_ref()?.shown.region_colors.get(region.index())?;
+        let index = self.shown()?.region_colors.iter().position(|other| other == color)?;
+        Some(RegionId::from_index(index))
+    }
+
     /// The region of the result shown that an item is or lies in.
     pub fn region_of(&self, item: Item) -> Option<RegionId> {
         let shown = self.shown()?;

@@ -43,6 +43,8 @@ const LOW_PT: f32 = 250.0;
 const ONE_LINE_PT: f32 = 760.0;
 /// Half the width of the wipe's handle, points.
 const HANDLE_PT: f32 = 6.0;
+/// Opacity of the verdict on an older result.
+const OLDER_OPACITY: f32 = 0.6;
 
 /// The image panel: the uploaded textures, and the gesture in progress.
 #[derive(Default)]
@@ -175,13 +177,16 @@ impl ImagePanel {
             return;
         }
         let state = cx.state;
-        let preview = || state.shown_preview().map(|(preview, _)| &preview.shown);
-        let shown = state.shown().or_else(preview);
+        let preview = state.shown_preview().map(|(preview, _)| &preview.shown);
+        let shown = preview.or_else(|| state.shown());
         let rows = if is_low || ui.available_width() >= ONE_LINE_PT { 1 } else { 2 };
         let margin = Margin { left: 8, right: 8, top: 4, bottom: 2 };
         let height = verdict_strip::height_of(ui, rows) + margin.sum().y;
         let panel = Panel::bottom("verdict").frame(bar.inner_margin(margin)).resizable(false);
         panel.exact_size(height).show(ui, |ui| {
+            if painting::is_older(state) {
+                ui.multiply_opacity(OLDER_OPACITY);
+            }
             if state.debugger.stopped().is_none() {
                 if let Some(shown) = shown {
                     verdict_strip::show_within(ui, cx, shown, rows);

@@ -105,7 +105,7 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
     let fits = texts.iter().all(|text| clause_width(ui, text) <= ui.available_width());
     let contents = |ui: &mut Ui| {
         for (clause, text) in clauses.iter().zip(texts) {
-            show_clause(ui, cx, clause, text);
+            show_clause(ui, cx, shown, clause, text);
         }
     };
     ui.scope(|ui| {
@@ -147,11 +147,11 @@ impl StepSentence {
 }
 
 /// Shows one clause as a link.
-fn show_clause(ui: &mut Ui, cx: &mut PanelContext, clause: &Clause, text: String) {
+fn show_clause(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot, clause: &Clause, text: String) {
     let color = if clause.is_bad { cx.palette.warning } else { cx.palette.text };
     let link = ui.add(Link::new(RichText::new(text).size(BODY_PT).color(color)));
     if link.clicked() {
-        go_to(cx, clause.subject);
+        go_to(cx, clause.subject, shown);
     }
     if clause.subject == ClauseSubject::Regions {
         Term::Holds.card(link, cx.palette);
@@ -173,15 +173,20 @@ fn tip(clause: &Clause) -> String {
     }
 }
 
-/// Shows what a clause is about.
-fn go_to(cx: &mut PanelContext, subject: ClauseSubject) {
+/// Shows what a clause about a result is about.
+fn go_to(cx: &mut PanelContext, subject: ClauseSubject, shown: &ResultSnapshot) {
     match subject {
         ClauseSubject::Regions => {
             show_layer(cx, Layer::Regions);
             cx.act(Action::Show(Pane::Regions));
         }
         ClauseSubject::Region(region) => {
-            cx.send(Edit::Select(Some(Item::Region(region))));
+            // The regions of a preview have other numbers than those of the result, in which the region is selected.
+            let selected =
+                if shown.is_of_working_picture() { cx.state.region_of_preview(region) } else { Some(region) };
+            if let Some(region) = selected {
+                cx.send(Edit::Select(Some(Item::Region(region))));
+            }
             cx.act(Action::Show(Pane::Regions));
         }
         ClauseSubject::Light => {

@@ -109,8 +109,13 @@ pub fn outlines(painter: &Painter, place: &Placement, state: &State) {
         fill(painter, place, MARK_COLOR.gamma_multiply(0.28), marked);
         edges(painter, place, MARK_COLOR, marked);
     }
-    // Regions and windows belong to the result, which does not exist yet while the debugger's cursor is followed.
-    let shown = state.shown().filter(|_| state.followed().is_none());
+    // Regions and windows belong to the result, which does not exist yet while the debugger's cursor is followed, and not as it was in the
+    // preview of the next result.
+    let shown = state.shown().filter(|_| state.followed().is_none() && state.shown_preview().is_none());
+    if let Some((preview, region)) = state.outlined_in_preview() {
+        let (labels, side, label) = (preview.shown.labels(), preview.blocks.side(), region.get());
+        edges(painter, place, MARK_COLOR, |x, y| labels.get(x / side, y / side) == Some(&label));
+    }
     for (item, color) in [(selection.item, MARK_COLOR), (state.hover, Color32::WHITE)] {
         match (item, shown) {
             (Some(Item::Region(region)), Some(shown)) => {

@@ -84,10 +84,14 @@ impl ImagePanel {
         overlay::grid(painter, place);
         if place.zoom >= overlay::OUTLINE_ZOOM {
             overlay::outlines(painter, place, state);
-        } else if let Some(request) = PaintRequest::marks(state)
-            && let Some(texture) = self.textures.get(ui.ctx(), Slot::Marks, &request)
-        {
-            texture.draw(painter, place, Color32::WHITE);
+        } else {
+            let marks = PaintRequest::marks(state).map(|request| (Slot::Marks, request));
+            let outline = PaintRequest::preview_outline(state).map(|request| (Slot::PreviewOutline, request));
+            for (slot, request) in marks.into_iter().chain(outline) {
+                if let Some(texture) = self.textures.get(ui.ctx(), slot, &request) {
+                    texture.draw(painter, place, Color32::WHITE);
+                }
+            }
         }
         overlay::hovered_colors(painter, place, state);
         overlay::profile(painter, place, state);
@@ -125,12 +129,15 @@ impl ImagePanel {
 
 /// The factor of a layer's colors: gray for a layer of an older result, when the newer result takes long; otherwise white.
 fn tint(cx: &PanelContext, layer: Layer) -> Color32 {
-    let state = cx.state;
+    if layer.needs_result() && is_older(cx.state) { Color32::from_gray(140) } else { Color32::WHITE }
+}
+
+/// Whether layers and verdict are of an older result, while the newer result takes long.
+pub(super) fn is_older(state: &State) -> bool {
     let is_late = state.jobs.analysis.is_some_and(|job| job.since.elapsed() >= PROGRESS_DELAY);
     // A preview is made anew several times a second while a slider moves.
     let is_current = state.is_current() || state.shown_preview().is_some();
-    let is_stale = is_late && layer.needs_result() && !is_current && !state.view.show_pinned;
-    if is_stale { Color32::from_gray(140) } else { Color32::WHITE }
+    is_late && !is_current && !state.view.show_pinned
 }
 
 /// The wipe's line, with a grip in its middle.

@@ -35,6 +35,8 @@ pub enum Slot {
     Marks,
     /// The instant at the debugger's cursor, over the photograph.
     Instant,
+    /// The outline of the selected region in a preview.
+    PreviewOutline,
 }
 
 /// A picture to be painted.
@@ -99,11 +101,11 @@ impl PaintRequest {
 
     /// The request of the marks: marked, selected and hovered pixels; none where none of these is larger than a pixel.
     pub fn marks(state: &State) -> Option<Self> {
-        let followed = state.followed().is_some();
+        // Regions and windows of the result do not exist yet at the debugger's cursor, and no more in the preview of the next result.
+        let has_regions = state.followed().is_none() && state.shown_preview().is_none();
         let large = |item: &Item| match item {
             Item::Pixel(_) => false,
-            // Regions and windows of the result do not exist yet at the debugger's cursor.
-            Item::Region(_) | Item::Window(_) => !followed,
+            Item::Region(_) | Item::Window(_) => has_regions,
             Item::Bin(_) => true,
         };
         let hover = state.hover.filter(large);
@@ -116,6 +118,25 @@ impl PaintRequest {
         let shown = state.shown().cloned();
         let subject = Subject::Marks(selection, hover);
         Some(Self { picture, shown, pinned: None, elsewhere: None, subject, texel_px: 1 })
+    }
+
+    /// The request of the outline of the selected region in the preview of the next result; none where there is no such region.
+    pub fn preview_outline(state: &State) -> Option<Self> {
+        let (preview, region) = state.outlined_in_preview()?;
+        let selection = Selection {
+            item: Some(Item::Region(region)),
+            marked: None,
+            // Named marks have pixels of the photograph and are not painted in working pixels.
+            named: Arc::clone(&state.document.selection.named),
+        };
+        Some(Self {
+            picture: Arc::clone(state.picture.as_ref()?),
+            shown: Some(Arc::clone(&preview.shown)),
+            pinned: None,
+            elsewhere: None,
+            subject: Subject::Marks(selection, None),
+            texel_px: preview.blocks.side(),
+        })
     }
 
     /// The request of the instant at the cursor.
@@ -211,7 +232,7 @@ impl PartialEq for TextureKey {
 pub struct TextureCache {
     textures: Vec<LayerTexture>,
     /// The texture that each slot showed last, which stays until the requested texture is painted.
-    shown_last: [Option<TextureKey>; 4],
+    shown_last: [Option<TextureKey>; 5],
     painting: Option<Task<LayerTexture>>,
     /// The texture that `painting` makes.
     painting_key: Option<TextureKey>,
@@ -229,7 +250,7 @@ impl Default for TextureCache {
     fn default() -> Self {
         Self {
             textures: Vec::new(),
-            shown_last: [const { None }; 4],
+            shown_last: [const { None }; 5],
             painting: None,
             painting_key: None,
             failed_key: None,

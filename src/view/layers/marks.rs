@@ -15,6 +15,8 @@ const CLEAR: [u8; 4] = [0; 4];
 /// The marked pixels (a translucent fill and an outline), the selected region, window or color bin and the hovered item, at the
 /// size of the picture, as sRGB with straight alpha. None where there is nothing to draw.
 ///
+/// Of a result for the working picture, the picture has the size of the working picture, and the selected and hovered regions alone.
+///
 /// Outlines are one pixel wide, inside, with a dark line around. A single pixel is too small to be drawn here: views draw a cross-hair.
 pub fn marks(
     picture: &Picture,
@@ -22,8 +24,9 @@ pub fn marks(
     selection: &Selection,
     hover: Option<Item>,
 ) -> Option<Raster<[u8; 4]>> {
-    let (width, height) = picture.size();
-    let shown = shown.filter(|shown| shown.picture.size() == (width, height));
+    let shown = shown.filter(|shown| shown.picture.size() == picture.size());
+    let (width, height) =
+        shown.map_or_else(|| picture.size(), |shown| (shown.labels().width(), shown.labels().height()));
     let marked = selection.marked.as_deref().filter(|mask| (mask.width(), mask.height()) == (width, height));
     let drawn = |item: &Item| match *item {
         Item::Pixel(_) => false,

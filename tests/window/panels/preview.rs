@@ -1,14 +1,15 @@
 //! Tests of the preview: the result for the working picture of a large photograph, which is shown until the whole result is there.
 
 use crate::window::{
-    SIZE, Window, apply, at, click, named, says, shown, size, state, tiny, with_state, words, zoom_in,
+    SIZE, Window, apply, at, click, named, region, says, shown, size, state, tiny, with_state, words, zoom_in,
 };
 use dichroscope::analysis::{Analysis, Observer, RunWarning, Session, Stage};
 use dichroscope::app::{Application, Debugger, Edit, Executor, JobCommand, Preview, State, ViewCommand};
 use dichroscope::params::{Parameter, Params, Setting};
 use dichroscope::raster::{Blocks, PixelIndex, Raster};
 use dichroscope::view::{
-    Arrangement, ImageSettings, Item, Layer, Origin, Picture, ResultSnapshot, Selection, paint,
+    ACCENT, Arrangement, ImageSettings, Item, Layer, Origin, Picture, ResultSnapshot, Selection, paint,
+    verdict,
 };
 use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable;
@@ -240,4 +241,73 @@ fn the_preview_of_a_photograph_without_a_result_is_shown_and_the_view_stays_when
     let whole = painted(&window, Layer::Body, &shown(&window));
     assert_drawn(&mut window, "result", |x, y| whole[y * 178 + x]);
     assert_eq!(named(&window, Role::Image, "Picture").rect(), before);
+}
+
+/// The state with a preview of which some regions are as in the result before.
+fn state_with_regions(change: impl FnOnce(&mut Analysis)) -> State {
+    let mut state = state_with_preview();
+    let Preview { shown, blocks } = state.preview.take().unwrap();
+    let (picture, mut analysis) = (Arc::clone(&shown.picture), shown.analysis.clone());
+    change(&mut analysis);
+    let colors = state.newest.as_ref().unwrap().region_colors.clone();
+    let mut snapshot = ResultSnapshot::new(picture, shown.params, analysis, colors);
+    snapshot.generation = shown.generation;
+    state.preview = Some(Preview { shown: Arc::new(snapshot), blocks });
+    state
+}
+
+#[test]
+fn the_verdict_is_about_the_preview_while_the_picture_shows_it() {
+    let Some(mut window) = with_state(
+        SIZE,
+        state_with_regions(|analysis| {
+            Arc::make_mut(&mut analysis.intrinsic).regions.truncate(1);
+        }),
+    ) else {
+        return;
+    };
+    window.run_steps(2);
+    let first = |shown: &ResultSnapshot| verdict(shown)[0].text.to_lowercase();
+    let [of_preview, of_result] = [first(&preview_of(&window).shown), first(&shown(&window))];
+    assert_ne!(of_preview, of_result);
+    let links = |window: &Window| -> Vec<String> {
+        let links = window.query_all_by_role(Role::Link);
+        links.filter_map(|link| words(&link)).map(|words| words.to_lowercase()).collect()
+    };
+    assert!(links(&window).iter().any(|link| link.starts_with(&of_preview)), "{:?}", links(&window));
+    assert!(!links(&window).iter().any(|link| link.starts_with(&of_result)), "{:?}", links(&window));
+}
+
+#[test]
+fn the_selected_region_is_outlined_in_the_preview_as_the_preview_has_it() {
+    let Some(mut window) = with_state(SIZE, state_with_preview()) else { return };
+    zoom_in(&mut window);
+    apply(&mut window, Edit::Select(Some(region(1))));
+    show_layer(&mut window, Layer::Input);
+    let photograph = painted(&window, Layer::Input, &shown(&window));
+    assert_drawn(&mut window, "no region of this color", |x, y| photograph[y * 178 + x]);
+
+    let Some(mut window) = with_state(SIZE, state_with_regions(|_| ())) else { return };
+    zoom_in(&mut window);
+    apply(&mut window, Edit::Select(Some(region(1))));
+    let (preview, selected) = {
+        let (preview, selected) = state(&window).outlined_in_preview().expect("it is in the preview");
+        (preview.clone(), selected.get())
+    };
+    let labels = preview.shown.labels();
+    let mut is_outlined = 0;
+    show_layer(&mut window, Layer::Input);
+    let drawn = window.render().unwrap();
+    for row in 1..37 {
+        for column in 1..44 {
+            let label = |x: usize, y: usize| *labels.get(x, y).unwrap();
+            let is_border = label(column, row) == selected && label(column - 1, row) != selected;
+            let place = at(&window, (column * SIDE + 2) as f32, (row * SIDE + 2) as f32);
+            let color = drawn.get_pixel(place.x as u32, place.y as u32).0;
+            let is_accent = (0..3).all(|band| color[band].abs_diff(ACCENT[band]) <= 2);
+            assert!(is_accent || !is_border, "column {column} of row {row}: {color:?}");
+            is_outlined += usize::from(is_border);
+        }
+    }
+    assert!(is_outlined > 5, "the region has a border");
 }
