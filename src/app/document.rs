@@ -16,6 +16,17 @@ pub struct Document {
     pub selection: Selection,
 }
 
+impl Document {
+    /// Whether parameters, area or marks differ from those of another document. The selected item is no work.
+    pub fn holds_other_work(&self, other: &Self) -> bool {
+        let work = |document: &Self| {
+            let Selection { marked, named, .. } = &document.selection;
+            (document.params, document.area.clone(), marked.clone(), Arc::clone(named))
+        };
+        work(self) != work(other)
+    }
+}
+
 /// A continuous movement of a person. Changes of one gesture are one step of the history, until [`History::end_gesture`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Gesture {

@@ -7,7 +7,7 @@ use crate::view::{Elsewhere, Picture, ResultSnapshot};
 use std::path::PathBuf;
 use std::sync::Arc;
 
-/// Largest number of photographs that are kept open beside the one that is shown; of more, the one shown longest ago is closed.
+/// Largest number of photographs that are kept open beside the one that is shown; of more, one is closed.
 pub(super) const MOST_OTHERS: usize = 7;
 
 /// An open photograph that is not shown: what a person decided about it, and its last results.
@@ -19,6 +19,8 @@ pub struct OpenPhotograph {
     pub document: Document,
     /// The steps that can be undone and redone.
     pub history: History,
+    /// The document as it was when the photograph was opened, or when the workspace was saved last.
+    pub(super) saved: Document,
     /// The last result.
     pub newest: Option<Arc<ResultSnapshot>>,
     /// The pinned result.
@@ -33,6 +35,13 @@ pub struct OpenPhotograph {
     pub(super) explained_pixel: Option<PixelIndex>,
     /// What is done as soon as its next result is complete.
     pub(super) awaited: Awaited,
+}
+
+impl OpenPhotograph {
+    /// Whether parameters, marks or area are in no workspace that was saved.
+    pub fn is_unsaved(&self) -> bool {
+        self.document.holds_other_work(&self.saved)
+    }
 }
 
 /// The photograph to show in place of the present one.

@@ -30,6 +30,8 @@ pub struct State {
     pub found_light: Option<[f64; 3]>,
     /// The workspace file that was opened or saved last, for the open photograph.
     pub workspace_path: Option<PathBuf>,
+    /// The document as it was when the photograph was opened, or when the workspace was saved last.
+    pub(super) saved: Document,
     /// The result that was pinned to be compared with.
     pub pinned: Option<Arc<ResultSnapshot>>,
     /// What another program made of the open photograph.
@@ -278,6 +280,18 @@ impl State {
     /// The color of the hypothesis that the debugger's cursor is about, sRGB; none where the cursor is about no hypothesis.
     pub fn focus_color(&self) -> Option<[u8; 3]> {
         self.debugger.focus().map(|focus| self.debugger.names.color(focus))
+    }
+
+    /// Whether a person has changed parameters, marks or area since the photograph was opened and since the workspace was saved last.
+    pub fn is_unsaved(&self) -> bool {
+        self.picture.is_some() && self.document.holds_other_work(&self.saved)
+    }
+
+    /// The names of the open photographs whose parameters, marks or area are not saved, that of the photograph shown first.
+    pub fn unsaved_names(&self) -> Vec<String> {
+        let shown = self.picture.iter().filter(|_| self.is_unsaved());
+        let others = self.others.iter().filter(|other| other.is_unsaved()).map(|other| &other.picture);
+        shown.chain(others).map(|picture| picture.origin.name()).collect()
     }
 
     /// Adds a notice about the open photograph, in place of a notice with the same text.

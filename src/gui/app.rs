@@ -1,6 +1,7 @@
 //! The window's content: the application, the panels, and input from keyboard and desktop.
 
 use super::action::{Action, CubeAction};
+use super::closing::Closing;
 use super::command_palette::CommandPalette;
 use super::compact_dock::CompactDock;
 use super::cube_choices::{NEEDS_PLANE, NamedView};
@@ -45,6 +46,7 @@ struct WindowContent {
     camera: String,
     panels: Panels,
     dialogs: Dialogs,
+    closing: Closing,
     command_palette: CommandPalette,
     view_exporter: ViewExporter,
     notices: notices::Notices,
@@ -234,6 +236,7 @@ impl WindowContent {
 
     fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         self.keyboard_focus.skip_splitters(ui.ctx());
+        self.closing.hold_window(ui.ctx(), cx.state);
         self.take_dropped_and_pasted(ui, cx);
         let mut held_keys = self.handle_keys(ui, cx);
         if let Some(pane) = self.single_pane {
@@ -289,7 +292,8 @@ impl WindowContent {
             self.panels.color_space_rect.take(),
             timeline_panel::track_id(),
         );
-        let owns_keyboard = self.dialogs.is_open() || self.command_palette.is_open();
+        let owns_keyboard =
+            self.dialogs.is_open() || self.command_palette.is_open() || self.closing.is_open();
         if !owns_keyboard {
             self.menu_keys.handle(ui.ctx());
         }
@@ -302,6 +306,7 @@ impl WindowContent {
             ui.ctx().request_repaint();
             match action {
                 Action::Quit => ui.ctx().send_viewport_cmd(egui::ViewportCommand::Close),
+                Action::ClosePhotograph => self.closing.close_photograph(cx),
                 Action::Show(pane) => self.raise(pane),
                 Action::ShowAll => self.dock.reset(),
                 Action::Palette => self.command_palette.toggle(ui.ctx()),
@@ -324,6 +329,7 @@ impl WindowContent {
         let floor = timeline.map_or(ui.ctx().content_rect().bottom(), |timeline| timeline.top() - TAB_BAR_PT);
         self.notices.show(ui, cx, floor);
         self.command_palette.show(ui, cx);
+        self.closing.show(ui, cx);
         if let Some(view_export) = self.dialogs.show(ui, cx) {
             self.view_exporter.begin(ui.ctx(), view_export, cx, &self.panels.cube);
         }

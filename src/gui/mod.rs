@@ -8,6 +8,7 @@ mod action;
 mod app;
 mod background_value;
 mod breakpoints_panel;
+mod closing;
 mod command_list;
 mod command_palette;
 mod compact_dock;

@@ -33,7 +33,7 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
             Some(path) => cx.send(JobCommand::Export(ExportKind::Workspace.to(path))),
             None => dialogs.open(Dialog::SaveWorkspace),
         },
-        // The window closes itself, arranges its panels, knows where they are and has the clipboard: an action has no window.
+        // The window closes itself and photographs, arranges its panels, knows where they are and has the clipboard: an action has no window.
         Action::Quit
         | Action::CopyCommandLine
         | Action::CopyRegions
@@ -42,11 +42,11 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
         | Action::ShowAll
         | Action::Palette
         | Action::Menus
+        | Action::ClosePhotograph
         | Action::View(_) => {}
         Action::Help => *help = !*help,
         Action::CloseElsewhere(_)
         | Action::Switch(_)
-        | Action::ClosePhotograph
         | Action::ComparePhotographs
         | Action::Sample(_)
         | Action::ThreeLamps
@@ -135,7 +135,6 @@ fn change_photographs(action: Action, cx: &mut PanelContext) {
     match action {
         Action::CloseElsewhere(kind) => cx.send(ViewCommand::CloseElsewhere(kind)),
         Action::Switch(switching) => cx.send(JobCommand::Switch(switching)),
-        Action::ClosePhotograph => cx.send(JobCommand::ClosePhotograph),
         Action::ComparePhotographs => {
             cx.send(ViewCommand::ComparePhotographs(!cx.state.compares_photographs));
         }

@@ -5,12 +5,14 @@ use crate::app::photographs::MOST_OTHERS;
 use crate::app::{Effect, OpenPhotograph, Severity, State, Switching};
 use crate::view::Arrangement;
 
-/// Puts the photograph that is shown to the end of the others, before another one is shown.
+/// Puts the photograph that is shown to the end of the others, before another one is shown. Of too many, the one without unsaved work that
+/// was shown longest ago is closed; where all have some, the one shown longest ago.
 pub(super) fn keep_open(state: &mut State) {
     let shown = take_shown(state);
     state.others.extend(shown);
     if state.others.len() > MOST_OTHERS {
-        state.others.remove(0);
+        let closed = state.others.iter().position(|other| !other.is_unsaved()).unwrap_or(0);
+        state.others.remove(closed);
     }
 }
 
@@ -80,6 +82,7 @@ fn take_shown(state: &mut State) -> Option<OpenPhotograph> {
         picture: state.picture.take()?,
         document: std::mem::take(&mut state.document),
         history: std::mem::take(&mut state.history),
+        saved: std::mem::take(&mut state.saved),
         newest: state.newest.take(),
         pinned: state.pinned.take(),
         elsewhere: state.elsewhere.take(),
@@ -100,6 +103,7 @@ fn show(state: &mut State, photograph: OpenPhotograph) -> Vec<Effect> {
     state.picture = Some(photograph.picture);
     state.document = photograph.document;
     state.history = photograph.history;
+    state.saved = photograph.saved;
     state.newest = photograph.newest;
     state.pinned = photograph.pinned;
     state.found_light = photograph.found_light;

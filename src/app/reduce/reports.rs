@@ -94,7 +94,9 @@ fn end_export(state: &mut State, outcome: Result<String, String>, workspace: Opt
     (state.jobs.export, state.jobs.failed_export) = (None, None);
     match outcome {
         Ok(text) => {
-            state.workspace_path = workspace.or(state.workspace_path.take());
+            if let Some(path) = workspace {
+                (state.workspace_path, state.saved) = (Some(path), state.document.clone());
+            }
             state.notify(Severity::Done, text);
         }
         Err(reason) => {
@@ -249,6 +251,11 @@ fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: &ElsewhereP
         state.workspace_path = Some(path);
     } else if is_other {
         tell_of_parameters(state);
+    }
+    state.saved = state.document.clone();
+    if let Some(after) = &state.awaited.after_pin {
+        // The parameters of the document are those of the pinned result, which is computed first.
+        state.saved.params = after.params;
     }
     forget_defaults(state);
     for kind in ElsewhereKind::ALL {

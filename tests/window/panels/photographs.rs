@@ -32,6 +32,7 @@ fn photographs_stay_open_and_keys_go_from_one_to_the_other_and_back() {
     press(&mut window, Modifiers::CTRL.plus(Modifiers::SHIFT), Key::Tab);
     assert_eq!(name(&window), first);
     press(&mut window, Modifiers::COMMAND, Key::W);
+    click(&mut window, Role::Button, "Close without saving");
     assert_eq!((name(&window).as_str(), state(&window).others.len()), (sample::NAME, 0));
     press(&mut window, Modifiers::COMMAND, Key::W);
     assert_eq!(name(&window), sample::NAME, "the only one stays");

@@ -1,0 +1,93 @@
+//! The question before the window or a photograph is closed whose work is in no workspace.
+
+use super::PanelContext;
+use super::action::Action;
+use super::theme::{BODY_PT, heading_font};
+use crate::app::{JobCommand, State};
+use egui::{Id, Label, Modal, RichText, Ui, ViewportCommand};
+
+/// What is to be closed.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Closed {
+    Window,
+    Photograph,
+}
+
+/// The question whether to close without saving.
+#[derive(Default)]
+pub struct Closing {
+    /// What is asked about; none while nothing is asked.
+    asked: Option<Closed>,
+    /// Whether a person has chosen to close the window without saving.
+    is_confirmed: bool,
+}
+
+impl Closing {
+    /// Whether the question is shown. It owns the keyboard.
+    pub const fn is_open(&self) -> bool {
+        self.asked.is_some()
+    }
+
+    /// Keeps the window open that the desktop or a person wants to close, and asks, where the work on a photograph is not saved.
+    pub fn hold_window(&mut self, ctx: &egui::Context, state: &State) {
+        let is_closing = ctx.input(|input| input.viewport().close_requested());
+        if is_closing && !self.is_confirmed && !state.unsaved_names().is_empty() {
+            ctx.send_viewport_cmd(ViewportCommand::CancelClose);
+            self.asked = Some(Closed::Window);
+            // The question is measured in this frame and shown in the next one.
+            ctx.request_repaint();
+        }
+    }
+
+    /// Closes the photograph that is shown, or asks where the work on it is not saved.
+    pub fn close_photograph(&mut self, cx: &mut PanelContext) {
+        if cx.state.is_unsaved() && !cx.state.others.is_empty() {
+            self.asked = Some(Closed::Photograph);
+        } else {
+            cx.send(JobCommand::ClosePhotograph);
+        }
+    }
+
+    /// Shows the question, where it is asked.
+    pub fn show(&mut self, ui: &Ui, cx: &mut PanelContext) {
+        let Some(closed) = self.asked else { return };
+        let names = match closed {
+            Closed::Window => cx.state.unsaved_names().join(", "),
+            Closed::Photograph => cx.state.picture.iter().map(|picture| picture.origin.name()).collect(),
+        };
+        let modal = Modal::new(Id::unique("close without saving")).show(ui.ctx(), |ui| {
+            ui.set_max_width(420.0);
+            ui.label(RichText::new("Close without saving?").font(heading_font(BODY_PT)));
+            let text = format!("Parameters, marks or area of {names} were changed, and are in no workspace.");
+            ui.add(Label::new(RichText::new(text).color(cx.palette.secondary)).wrap());
+            ui.add_space(6.0);
+            ui.horizontal(|ui| {
+                if cx.state.is_unsaved() && ui.button("Save workspace\u{2026}").clicked() {
+                    self.asked = None;
+                    cx.act(Action::Save);
+                }
+                if ui.button("Close without saving").clicked() {
+                    self.close(ui, cx, closed);
+                }
+                if ui.button("Cancel").clicked() {
+                    self.asked = None;
+                }
+            });
+        });
+        if modal.should_close() {
+            self.asked = None;
+        }
+    }
+
+    /// Closes what was asked about.
+    fn close(&mut self, ui: &Ui, cx: &mut PanelContext, closed: Closed) {
+        self.asked = None;
+        match closed {
+            Closed::Window => {
+                self.is_confirmed = true;
+                ui.ctx().send_viewport_cmd(ViewportCommand::Close);
+            }
+            Closed::Photograph => cx.send(JobCommand::ClosePhotograph),
+        }
+    }
+}

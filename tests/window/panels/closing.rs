@@ -1,0 +1,85 @@
+//! Tests of the question before unsaved work is closed.
+
+use crate::window::{
+    Window, answer, apply, click, open_sample, press, region, says, state, tiny_window, undo,
+};
+use dichroscope::app::{Edit, JobCommand};
+use dichroscope::params::{Parameter, Setting};
+use dichroscope::truth::sample;
+use egui::accesskit::Role;
+use egui::{Key, Modifiers, ViewportCommand, ViewportEvent, ViewportId};
+
+const QUESTION: &str = "Close without saving?";
+
+/// Closes the window, as the button of the desktop does. Returns whether the window stays open.
+fn close_window(window: &mut Window) -> bool {
+    let root = window.input_mut().viewports.entry(ViewportId::ROOT).or_default();
+    root.events.push(ViewportEvent::Close);
+    window.step();
+    let commands = &window.output().viewport_output[&ViewportId::ROOT].commands;
+    let is_held = commands.contains(&ViewportCommand::CancelClose);
+    window.input_mut().viewports.entry(ViewportId::ROOT).or_default().events.clear();
+    window.run_steps(3);
+    is_held
+}
+
+fn change(window: &mut Window) {
+    apply(window, Edit::SetParameter(Parameter::CylinderWidth, Setting::Value(5.0), None));
+}
+
+#[test]
+fn a_window_without_changes_closes_at_once() {
+    let mut window = tiny_window();
+    apply(&mut window, Edit::Select(Some(region(1))));
+    assert!(!close_window(&mut window) && !says(&window, QUESTION), "looking is no work");
+    change(&mut window);
+    undo(&mut window);
+    assert!(!close_window(&mut window), "what is taken back is no work");
+}
+
+#[test]
+fn unsaved_work_is_asked_about_until_it_is_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = tiny_window();
+    change(&mut window);
+    assert!(close_window(&mut window) && says(&window, QUESTION) && says(&window, "camera8.png"));
+    press(&mut window, Modifiers::NONE, Key::D);
+    assert!(state(&window).view.debug.open, "no key reaches the panels");
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(!says(&window, QUESTION));
+    assert!(close_window(&mut window), "Escape confirms nothing");
+    click(&mut window, Role::Button, "Save workspace");
+    assert!(!says(&window, QUESTION));
+    answer(&mut window, &folder.path().join("work.dichroscope"));
+    assert!(state(&window).unsaved_names().is_empty(), "{:?}", state(&window).notices);
+    assert!(!close_window(&mut window));
+    change(&mut window);
+    apply(&mut window, Edit::SetParameter(Parameter::SliceWidth, Setting::Value(5.0), None));
+    assert!(close_window(&mut window));
+    apply(&mut window, JobCommand::OpenWorkspace(folder.path().join("work.dichroscope")));
+    assert!(state(&window).unsaved_names().is_empty(), "as saved");
+}
+
+#[test]
+fn a_window_that_is_to_close_without_saving_closes() {
+    let mut window = tiny_window();
+    change(&mut window);
+    open_sample(&mut window, sample::NAME);
+    assert!(close_window(&mut window) && says(&window, "camera8.png"), "a photograph that is not shown");
+    click(&mut window, Role::Button, "Close without saving");
+    assert!(!close_window(&mut window));
+}
+
+#[test]
+fn a_photograph_with_unsaved_work_is_closed_when_that_is_confirmed() {
+    let mut window = tiny_window();
+    open_sample(&mut window, sample::NAME);
+    change(&mut window);
+    for (button, others) in [("Cancel", 1), ("Close without saving", 0)] {
+        press(&mut window, Modifiers::COMMAND, Key::W);
+        assert!(says(&window, QUESTION) && says(&window, sample::NAME));
+        click(&mut window, Role::Button, button);
+        assert!(!says(&window, QUESTION));
+        assert_eq!(state(&window).others.len(), others, "{button}");
+    }
+}
