@@ -98,9 +98,13 @@ impl CommandPalette {
             // Tab stays inside the palette.
             ui.ctx().memory_mut(|memory| memory.set_modal_layer(shown.response.layer_id));
         }
+        let is_left = shown.is_some_and(|shown| shown.response.clicked_elsewhere());
         if let Some(action) = confirmed {
             cx.act(action);
             self.close(ui.ctx());
+        } else if is_left {
+            // What was clicked may have taken the focus.
+            *self = Self::default();
         }
     }
 

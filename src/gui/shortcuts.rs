@@ -47,9 +47,8 @@ pub fn named_actions() -> impl Iterator<Item = (&'static str, &'static str, Acti
     all_shortcuts().map(|shortcut| (shortcut.group, shortcut.description, shortcut.action))
 }
 
-/// The keys that are not the debugger's. Those with more modifiers come first: egui lets `Ctrl+Shift+Z` pass for `Ctrl+Z`.
+/// The keys that are not the debugger's.
 const GENERAL: &[Shortcut] = &[
-    Shortcut::new("Edit", SHIFT_COMMAND, Key::Z, Action::Redo, "Redo"),
     key_with_command("File", Key::O, Action::Open, "Open a photograph"),
     key_with_command("File", Key::E, Action::Export, "Export"),
     key_with_command("File", Key::S, Action::Save, "Save the workspace"),
@@ -73,6 +72,7 @@ const GENERAL: &[Shortcut] = &[
     key_with_command("File", Key::D, Action::ComparePhotographs, "Compare the next open photograph beside"),
     key_with_command("File", Key::Q, Action::Quit, "Quit"),
     key_with_command("Edit", Key::Z, Action::Undo, "Undo"),
+    Shortcut::new("Edit", SHIFT_COMMAND, Key::Z, Action::Redo, "Redo"),
     key_with_command("Edit", Key::Y, Action::Redo, "Redo"),
     key_with_command("Edit", Key::I, Action::Invert, "Invert the marked pixels"),
     key_with_command("Edit", Key::A, Action::MarkRegion, "Mark the pixels of the selected region"),
@@ -224,13 +224,21 @@ fn take_actions(events: &mut Vec<egui::Event>, shortcuts: &[&Shortcut]) -> (Vec<
             let is_pressed = |KeyboardShortcut { modifiers: wanted, logical_key }| {
                 *key == logical_key && modifiers.matches_logically(wanted)
             };
-            shortcuts.iter().find(|shortcut| is_pressed(shortcut.keys))
+            // egui lets `Ctrl+Shift+Z` pass for `Ctrl+Z`: of several keys, the one with the most modifiers is meant.
+            let pressed = shortcuts.iter().filter(|shortcut| is_pressed(shortcut.keys));
+            pressed.max_by_key(|shortcut| modifier_count(shortcut.keys.modifiers))
         };
         let shortcut = of_digit.or_else(of_key);
         actions.extend(shortcut.map(|shortcut| shortcut.action));
         shortcut.is_none()
     });
     (actions, typed)
+}
+
+/// Number of the keys that modify another key.
+fn modifier_count(modifiers: Modifiers) -> usize {
+    let Modifiers { alt, ctrl, shift, command, .. } = modifiers;
+    [alt, ctrl, shift, command].into_iter().filter(|&is_held| is_held).count()
 }
 
 /// The shortcut of a digit key. The place of a key decides, as the key cap may show something else: the key 6 of a French keyboard is a
@@ -252,9 +260,9 @@ pub fn show_help(ui: &mut Ui, cx: &PanelContext, open: &mut bool) {
     let ctx = ui.ctx().clone();
     let room = ctx.content_rect().size();
     let columns: &[&[&str]] = if room.x >= FOUR_COLUMNS_PT {
-        &[&["File", "Edit", "Compare", "Window"], &["Image"], &["Decisions"], &["Tools", "Pointer"]]
+        &[&["File", "Edit", "Compare"], &["Image"], &["Decisions", "Window"], &["Tools", "Pointer"]]
     } else if room.x >= THREE_COLUMNS_PT {
-        &[&["File", "Edit", "Compare", "Window"], &["Image", "Decisions"], &["Tools", "Pointer"]]
+        &[&["File", "Edit", "Compare"], &["Image", "Decisions"], &["Tools", "Pointer", "Window"]]
     } else {
         &[&["File", "Edit", "Image", "Compare"], &["Window", "Decisions", "Tools", "Pointer"]]
     };

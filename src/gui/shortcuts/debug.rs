@@ -12,7 +12,7 @@ const fn key(modifiers: Modifiers, key: Key, action: DebugAction, description: &
     Shortcut::new("Decisions", modifiers, key, Action::Debug(action), description)
 }
 
-/// The debugger's keys; keys with modifiers stand before the same keys without.
+/// The debugger's keys.
 pub const KEYS: &[Shortcut] = &[
     key(Modifiers::SHIFT, Key::Space, DebugAction::Play(Back), "Play backwards, or rest"),
     key(Modifiers::NONE, Key::Space, DebugAction::Play(Forward), "Play, or rest"),

@@ -2,13 +2,14 @@
 
 use crate::window::{
     Fixture, Window, answer, apply, at, choose, click, inside, item, marked, notice, open_sample, press,
-    region, says, state, tiny, tiny_window, window, with_gpu, zoom_in,
+    region, says, state, tap, tiny, tiny_window, window, with_gpu, zoom_in,
 };
 use dichroscope::app::{Command, DebugCommand, Edit};
+use dichroscope::params::{Parameter, Setting};
 use dichroscope::truth::sample;
 use dichroscope::view::{Arrangement, ArrangementKind, ColorBy, ColorSpace, Item, Layer, Theme};
 use egui::accesskit::Role;
-use egui::{Event, Key, Modifiers, PointerButton, Pos2};
+use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2};
 use egui_kittest::kittest::Queryable;
 
 fn type_text(window: &mut Window, text: &str) {
@@ -223,4 +224,31 @@ fn the_parameters_are_reset_from_the_palette_and_the_menu() {
         }
         assert_eq!(state(&window).document.params, defaults);
     }
+}
+
+#[test]
+fn a_click_beside_the_palette_closes_it() {
+    let mut window = tiny_window();
+    press(&mut window, Modifiers::COMMAND, Key::P);
+    let field =
+        |window: &Window| window.query_by_role_and_label(Role::TextInput, "Command").map(|node| node.rect());
+    let inside = field(&window).expect("the palette is open").center();
+    tap(&mut window, inside);
+    assert!(field(&window).is_some(), "a click into the palette is for the palette");
+    tap(&mut window, pos2(200.0, 700.0));
+    assert!(field(&window).is_none());
+    press(&mut window, Modifiers::NONE, Key::Num8);
+    assert_eq!(state(&window).view.image.layer, Layer::Body, "keys are commands again");
+}
+
+#[test]
+fn of_two_keys_that_fit_the_one_with_more_modifiers_is_meant() {
+    let mut window = tiny_window();
+    let before = state(&window).document.params;
+    apply(&mut window, Edit::SetParameter(Parameter::CameraNoise, Setting::Value(3.0), None));
+    let changed = state(&window).document.params;
+    press(&mut window, Modifiers::COMMAND, Key::Z);
+    assert_eq!(state(&window).document.params, before);
+    press(&mut window, Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
+    assert_eq!(state(&window).document.params, changed);
 }
