@@ -196,7 +196,7 @@ impl IlluminantFacts {
             given: analysis.illuminant.is_some_and(|light| light.given),
             basis: basis.name().to_owned(),
             reason: light_reason(light).to_owned(),
-            interval_deg: light.interval_deg,
+            interval_deg: light.claimed_interval_deg(),
             second: light.second.map(|second| SecondLampFacts {
                 direction: second.direction,
                 interval_deg: second.interval_deg,

@@ -199,6 +199,7 @@ mod tests {
             direction: Some(yellowish(planes_deg)),
             regions: 4,
             interval_deg: 1.0,
+            spread_deg: 0.0,
             highlights_alone: false,
         };
         let result = VoteResult {

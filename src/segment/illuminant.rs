@@ -13,12 +13,16 @@
 //! starts: the highlight lines' direction, white, and the intersection of each pair of planes. The merit of a result is the
 //! number of constraints that it satisfies, less a cost for an unusual light: the colors of lamps and skies lie within about
 //! 14° of white between yellow and blue, and within 6° between green and magenta.
+//!
+//! The variances of the constraints say how far the light is known where all planes are right. Where some are not, other
+//! minima have nearly the same merit, and the light turns when one region is left out. Both are the spread of the light.
 
 use super::candidates::HighlightLine;
 use crate::color::{Vec3, axis_angle_deg};
 use crate::raster::HypothesisId;
 use crate::trace::Contribution;
 use nalgebra::Matrix3;
+use std::collections::BTreeSet;
 
 /// A plane of the color space that contains the illuminant's direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -52,6 +56,9 @@ pub struct Intersection {
     /// Two standard deviations of the direction along the axis of largest error, degrees, from the variances of the
     /// constraints and their disagreement.
     pub interval_deg: f64,
+    /// Two standard deviations of the direction, degrees, by the other minima of the search and by a jackknife over the regions:
+    /// how far the direction depends on single regions.
+    pub spread_deg: f64,
     /// Residual and weight of each constraint, in the order of the constraints.
     pub contributions: Vec<Contribution>,
 }
@@ -79,18 +86,60 @@ pub fn intersect(constraints: &[Constraint], prior: &Prior) -> Intersection {
     });
     let into_cube = |direction: Vec3| direction * if direction.sum() < 0.0 { -1.0 } else { 1.0 };
     let starts = [prior.direction, white].into_iter().chain(pairs.map(into_cube));
-    let direction = starts
+    let minima: Vec<(Vec3, f64)> = starts
         .filter(|start| start.min() > LEAST_BAND)
         .map(|start| nearest_minimum(constraints, prior, start))
-        .max_by(|a, b| merit(constraints, prior, a).total_cmp(&merit(constraints, prior, b)))
-        .unwrap_or(prior.direction);
+        .map(|minimum| (minimum, merit(constraints, prior, &minimum)))
+        .collect();
+    let best = minima.iter().max_by(|a, b| a.1.total_cmp(&b.1));
+    let direction = best.map_or(prior.direction, |best| best.0);
     let contribution = |constraint: &Constraint| Contribution {
         hypothesis: constraint.hypothesis,
         residual_deg: residual_deg(constraint, &direction),
         weight: weight(constraint, &direction),
     };
     let contributions = constraints.iter().map(contribution).collect();
-    Intersection { direction, interval_deg: interval_deg(constraints, prior, &direction), contributions }
+    let by_regions_deg = spread_by_regions_deg(constraints, prior, &direction);
+    Intersection {
+        direction,
+        interval_deg: interval_deg(constraints, prior, &direction),
+        spread_deg: spread_by_rivals_deg(&minima, &direction).max(by_regions_deg).min(90.0),
+        contributions,
+    }
+}
+
+/// Two standard deviations of the direction where the odds of two minima of the search are the exponential of the difference of their merits,
+/// degrees. `minima`: directions and merits; of those within [`SAME_MINIMUM_DEG`] of one another one counts.
+fn spread_by_rivals_deg(minima: &[(Vec3, f64)], direction: &Vec3) -> f64 {
+    let best = minima.iter().map(|(_, merit)| *merit).fold(f64::NEG_INFINITY, f64::max);
+    let mut rivals = vec![*direction];
+    let (mut squares, mut total) = (0.0, 1.0);
+    for (minimum, merit) in minima {
+        if rivals.iter().all(|rival| axis_angle_deg(rival, minimum) > SAME_MINIMUM_DEG) {
+            let probability = (merit - best).exp();
+            squares += probability * axis_angle_deg(minimum, direction).powi(2);
+            total += probability;
+            rivals.push(*minimum);
+        }
+    }
+    2.0 * (squares / total).sqrt()
+}
+
+/// Two standard deviations of the direction by a jackknife: each region is left out once; degrees. 0 for fewer than
+/// [`LEAST_JACKKNIFE_REGIONS`] regions.
+fn spread_by_regions_deg(constraints: &[Constraint], prior: &Prior, direction: &Vec3) -> f64 {
+    let regions: BTreeSet<HypothesisId> =
+        constraints.iter().map(|constraint| constraint.hypothesis).collect();
+    if regions.len() < LEAST_JACKKNIFE_REGIONS {
+        return 0.0;
+    }
+    let turned_deg2 = |region: &HypothesisId| {
+        let others: Vec<Constraint> =
+            constraints.iter().filter(|constraint| constraint.hypothesis != *region).copied().collect();
+        axis_angle_deg(&nearest_minimum(&others, prior, *direction), direction).powi(2)
+    };
+    let count = regions.len() as f64;
+    2.0 * (regions.iter().map(turned_deg2).sum::<f64>() * (count - 1.0) / count).sqrt()
 }
 
 /// Two standard deviations of the direction along the axis of largest error, degrees.
@@ -110,6 +159,10 @@ fn interval_deg(constraints: &[Constraint], prior: &Prior, direction: &Vec3) -> 
     (2.0 * (disagreement / values[2].max(1e-9)).sqrt()).min(90.0)
 }
 
+/// Angle within which two minima of the search are the same, degrees.
+const SAME_MINIMUM_DEG: f64 = 1.0;
+/// Fewest regions for a jackknife: without one of three, two planes alone decide.
+const LEAST_JACKKNIFE_REGIONS: usize = 4;
 /// Number of the strongest constraints whose pairwise intersections are starts of the search.
 const MAX_PAIRED: usize = 8;
 /// Least value of a band in the unit direction of a light.
@@ -217,6 +270,52 @@ mod tests {
             let found = intersect(&planes, &prior);
             prop_assert!(axis_angle_deg(&found.direction, &light) < 0.5);
         }
+    }
+
+    const BODIES: [[f64; 3]; 4] = [[0.9, 0.2, 0.1], [0.1, 0.9, 0.2], [0.1, 0.2, 0.9], [0.9, 0.7, 0.05]];
+    const NO_PRIOR_SD_DEG: f64 = 30.0;
+
+    /// The planes of four regions whose bodies have the colors of [`BODIES`] under `lights`.
+    fn planes_under(lights: [Vec3; 4]) -> Vec<Constraint> {
+        (1..)
+            .zip(BODIES)
+            .zip(lights)
+            .map(|((n, body), light)| plane_of(n, Vec3::from(body), &light))
+            .collect()
+    }
+
+    #[test]
+    fn a_light_on_which_all_regions_agree_has_no_spread() {
+        let light = Vec3::new(0.6, 0.6, 0.529).normalize();
+        let prior = Prior { direction: light, sd_deg: NO_PRIOR_SD_DEG };
+        let found = intersect(&planes_under([light; 4]), &prior);
+        assert!(axis_angle_deg(&found.direction, &light) < 0.01 && found.spread_deg < 0.1, "{found:?}");
+    }
+
+    #[test]
+    fn a_light_has_the_spread_of_the_lights_that_are_as_probable() {
+        let [a, b] = [[0.65, 0.58, 0.49], [0.49, 0.58, 0.65]].map(|light| Vec3::from(light).normalize());
+        let apart_deg = axis_angle_deg(&a, &b);
+        let prior = Prior { direction: Vec3::repeat(1.0).normalize(), sd_deg: NO_PRIOR_SD_DEG };
+        let found = intersect(&planes_under([a, a, b, b]), &prior);
+        assert!(found.interval_deg < apart_deg / 2.0, "by the variances alone: {found:?}");
+        assert!(found.spread_deg > apart_deg / 2.0, "{apart_deg}: {found:?}");
+    }
+
+    #[test]
+    fn a_light_has_the_spread_of_the_lights_without_each_region() {
+        let light = Vec3::new(0.6, 0.6, 0.529).normalize();
+        let turned = Vec3::new(0.64, 0.58, 0.5).normalize();
+        let prior = Prior { direction: light, sd_deg: NO_PRIOR_SD_DEG };
+        let spread_deg = |lights| {
+            let constraints = planes_under(lights);
+            let found = intersect(&constraints, &prior);
+            spread_by_regions_deg(&constraints, &prior, &found.direction)
+        };
+        assert!(spread_deg([light; 4]) < 0.01);
+        assert!(spread_deg([light, light, light, turned]) > 0.1);
+        let three: Vec<Constraint> = planes_under([light, light, turned, light])[..3].to_vec();
+        assert!(spread_by_regions_deg(&three, &prior, &light).abs() < 1e-12, "too few regions");
     }
 
     #[test]

@@ -32,8 +32,10 @@ pub struct LightFindings {
     pub share: f64,
     /// Share of the lit pixels in regions that fit the model and show highlights under the planes' light, 0…1.
     pub support: f64,
-    /// Angle within which the light lies, by the evidence alone, degrees.
+    /// Angle within which the light lies if all of its evidence is right, degrees: the tests of regions compare this angle with their limits.
     pub interval_deg: Option<f64>,
+    /// Two standard deviations of the light as far as it depends on single regions, degrees; 0 for a light that does not rest on planes.
+    pub spread_deg: f64,
     /// The second lamp; `None` where one light explains all regions.
     pub second: Option<SecondLampFindings>,
 }
@@ -62,6 +64,11 @@ impl LightFindings {
     /// The findings for a light that was given (unit direction).
     pub fn given(direction: [f64; 3]) -> Self {
         Self { direction: Some(direction), basis: LightBasis::Given, ..Self::default() }
+    }
+
+    /// Angle within which the light is claimed to lie, degrees; `None` without a light and for a light that was given.
+    pub fn claimed_interval_deg(&self) -> Option<f64> {
+        self.interval_deg.map(|interval_deg| interval_deg.max(self.spread_deg))
     }
 
     /// Angle between both estimates, degrees; `None` unless both found a light.

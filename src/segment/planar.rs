@@ -212,6 +212,9 @@ fn under_chosen_light<R: Recorder>(
     light.basis = decision.basis;
     let widening = state.input.interval_widening();
     light.interval_deg = decision.interval_deg.map(|interval_deg| (widening * interval_deg).min(90.0));
+    if decision.basis == LightBasis::Planes {
+        light.spread_deg = (widening * planes.spread_deg).min(90.0);
+    }
     let objects = decision.objects;
     let illuminant = light.direction.map(|direction| Illuminant { direction, objects, given: false });
     regions_of(state, hypotheses, illuminant, light)

@@ -37,6 +37,9 @@ pub struct PlaneLight {
     pub regions: usize,
     /// Angle within which the light lies, by the planes alone, degrees.
     pub interval_deg: f64,
+    /// Two standard deviations of the direction as far as it depends on single regions, degrees
+    /// ([`Intersection`](super::illuminant::Intersection)).
+    pub spread_deg: f64,
     /// Whether the estimate rests on the planes of the highlights alone, because faint surface reflection has another color
     /// (section 7.5).
     pub highlights_alone: bool,
@@ -45,7 +48,13 @@ pub struct PlaneLight {
 impl PlaneLight {
     /// The estimate of a scene without evidence: no direction.
     pub fn none() -> Self {
-        Self { direction: None, regions: 0, interval_deg: UNKNOWN_INTERVAL_DEG, highlights_alone: false }
+        Self {
+            direction: None,
+            regions: 0,
+            interval_deg: UNKNOWN_INTERVAL_DEG,
+            spread_deg: 0.0,
+            highlights_alone: false,
+        }
     }
 
     /// The direction, where at least one region supports it.
@@ -128,6 +137,7 @@ pub fn estimate_beside_matte_regions<R: Recorder>(
         direction: Some(found.direction),
         regions: constraints.len().max(state.lines.iter().flatten().count()),
         interval_deg: found.interval_deg,
+        spread_deg: found.spread_deg,
         highlights_alone: false,
     };
     let contributions = found.contributions;
@@ -177,6 +187,7 @@ pub fn estimate_from_grown_regions<R: Recorder>(
         direction: Some(found.direction),
         regions: evidence.len(),
         interval_deg: found.interval_deg,
+        spread_deg: found.spread_deg,
         highlights_alone: two_light_test.is_some_and(|test| test.taken),
     };
     let contributions = found.contributions;

@@ -131,9 +131,10 @@ fn light_clause(shown: &ResultSnapshot) -> Clause {
             format!("the light comes from {}", from("plane"))
         }
     };
-    let interval =
-        findings.interval_deg.map_or_else(String::new, |degrees| format!(", \u{b1}{degrees:.1}\u{b0}"));
-    let is_bad = findings.interval_deg.is_some_and(|degrees| degrees >= WIDE_INTERVAL_DEG);
+    let interval = findings
+        .claimed_interval_deg()
+        .map_or_else(String::new, |degrees| format!(", \u{b1}{degrees:.1}\u{b0}"));
+    let is_bad = findings.claimed_interval_deg().is_some_and(|degrees| degrees >= WIDE_INTERVAL_DEG);
     let second = second_lamp_words(findings).unwrap_or_default();
     Clause { text: format!("{text}{interval}{second}"), subject, is_bad }
 }

@@ -40,7 +40,7 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, shown: &ResultSnapshot) {
         ui.label(RichText::new("light").color(cx.palette.secondary)).on_hover_text(tip);
         if let Some(light) = &shown.analysis.illuminant {
             vector(ui, cx.palette, "color of the light", Some(light.direction), true);
-            let is_wide = findings.interval_deg.is_some_and(|degrees| degrees >= WIDE_INTERVAL_DEG);
+            let is_wide = findings.claimed_interval_deg().is_some_and(|degrees| degrees >= WIDE_INTERVAL_DEG);
             let tone = if is_wide { cx.palette.warning } else { cx.palette.secondary };
             let from = RichText::new(basis_text(light, findings)).size(SMALL_PT).color(tone);
             ui.label(from).on_hover_text(light_reason(findings));
@@ -126,7 +126,9 @@ fn basis_text(light: &Illuminant, findings: &LightFindings) -> String {
             format!("from {}", from("object"))
         }
     };
-    findings.interval_deg.map_or_else(|| from.clone(), |degrees| format!("{from}, \u{b1}{degrees:.1}\u{b0}"))
+    findings
+        .claimed_interval_deg()
+        .map_or_else(|| from.clone(), |degrees| format!("{from}, \u{b1}{degrees:.1}\u{b0}"))
 }
 
 /// Shows the errors against the ground truth, and in parentheses the error of the unchanged photograph.
