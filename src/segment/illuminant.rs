@@ -22,7 +22,6 @@ use crate::color::{Vec3, axis_angle_deg};
 use crate::raster::HypothesisId;
 use crate::trace::Contribution;
 use nalgebra::Matrix3;
-use std::collections::BTreeSet;
 
 /// A plane of the color space that contains the illuminant's direction.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -125,21 +124,26 @@ fn spread_by_rivals_deg(minima: &[(Vec3, f64)], direction: &Vec3) -> f64 {
     2.0 * (squares / total).sqrt()
 }
 
-/// Two standard deviations of the direction by a jackknife: each region is left out once; degrees. 0 for fewer than
-/// [`LEAST_JACKKNIFE_REGIONS`] regions.
+/// Two standard deviations of the direction by a jackknife: each region is left out once, with others where there are more than
+/// [`MOST_JACKKNIFE_PARTS`]; degrees. 0 for fewer than [`LEAST_JACKKNIFE_REGIONS`] regions.
 fn spread_by_regions_deg(constraints: &[Constraint], prior: &Prior, direction: &Vec3) -> f64 {
-    let regions: BTreeSet<HypothesisId> =
-        constraints.iter().map(|constraint| constraint.hypothesis).collect();
+    let mut regions: Vec<HypothesisId> = constraints.iter().map(|constraint| constraint.hypothesis).collect();
+    regions.sort_unstable();
+    regions.dedup();
     if regions.len() < LEAST_JACKKNIFE_REGIONS {
         return 0.0;
     }
-    let turned_deg2 = |region: &HypothesisId| {
+    let parts = regions.len().min(MOST_JACKKNIFE_PARTS);
+    let part_of = |constraint: &Constraint| {
+        regions.binary_search(&constraint.hypothesis).map_or(0, |place| place % parts)
+    };
+    let turned_deg2 = |part: usize| {
         let others: Vec<Constraint> =
-            constraints.iter().filter(|constraint| constraint.hypothesis != *region).copied().collect();
+            constraints.iter().filter(|constraint| part_of(constraint) != part).copied().collect();
         axis_angle_deg(&nearest_minimum(&others, prior, *direction), direction).powi(2)
     };
-    let count = regions.len() as f64;
-    2.0 * (regions.iter().map(turned_deg2).sum::<f64>() * (count - 1.0) / count).sqrt()
+    let count = parts as f64;
+    2.0 * ((0..parts).map(turned_deg2).sum::<f64>() * (count - 1.0) / count).sqrt()
 }
 
 /// Two standard deviations of the direction along the axis of largest error, degrees.
@@ -163,6 +167,8 @@ fn interval_deg(constraints: &[Constraint], prior: &Prior, direction: &Vec3) -> 
 const SAME_MINIMUM_DEG: f64 = 1.0;
 /// Fewest regions for a jackknife: without one of three, two planes alone decide.
 const LEAST_JACKKNIFE_REGIONS: usize = 4;
+/// Largest number of parts of the regions for the jackknife: its cost does not grow with the square of the number of regions.
+const MOST_JACKKNIFE_PARTS: usize = 8;
 /// Number of the strongest constraints whose pairwise intersections are starts of the search.
 const MAX_PAIRED: usize = 8;
 /// Least value of a band in the unit direction of a light.
