@@ -268,13 +268,17 @@ pub fn show_help(ui: &mut Ui, cx: &PanelContext, open: &mut bool) {
     };
     // The window with its margins and its bar is never wider than the room.
     let column_pt = ((room.x - 60.0) / columns.len() as f32 - GAP_PT).clamp(60.0, WIDEST_COLUMN_PT);
+    let height = (room.y - 120.0).max(80.0);
+    // egui keeps the height of a window by its id: in a larger room the list would stay as low as in the smaller one before.
+    let id = egui::Id::unique("keyboard and pointer").with(height as u32);
     let shown = egui::Window::new("Keyboard and pointer")
+        .id(id)
         .open(open)
         .collapsible(false)
         .resizable(false)
         .scroll([false, true])
-        .default_height((room.y - 120.0).max(80.0))
-        .max_height((room.y - 120.0).max(80.0))
+        .default_height(height)
+        .max_height(height)
         .anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO)
         .show(&ctx, |ui| {
             ui.horizontal_top(|ui| {

@@ -259,3 +259,18 @@ fn press_within_a_frame(window: &mut Window, keys: &[(Modifiers, Key)]) {
     window.step();
     window.run_steps(2);
 }
+
+#[test]
+fn the_list_of_keys_takes_the_room_of_the_window_that_has_grown() {
+    let mut window = tiny_window();
+    let list_height = |window: &mut Window, height: f32| {
+        window.set_size(egui::vec2(900.0, height));
+        window.run_steps(3);
+        let list = window.query_all_by_role(Role::Window).next().expect("the list is open");
+        list.rect().height()
+    };
+    press(&mut window, Modifiers::SHIFT, Key::Questionmark);
+    let low = list_height(&mut window, 600.0);
+    let high = list_height(&mut window, 900.0);
+    assert!(high > low + 200.0, "{low} in a room of 600 points, {high} in one of 900");
+}
