@@ -336,6 +336,8 @@ impl WindowContent {
         if let Some(drawn) = self.view_exporter.take_drawn() {
             self.dialogs.take_drawn(drawn, cx);
         }
+        let is_saving = self.dialogs.is_open() || cx.state.jobs.export.is_some();
+        self.closing.close_when_saved(ui, cx, is_saving);
         shortcuts::show_help(ui, cx, &mut self.help);
     }
 

@@ -13,11 +13,24 @@ enum Closed {
     Photograph,
 }
 
+/// What is closed once the workspace is saved.
+#[derive(Clone, Copy)]
+struct Saving {
+    closed: Closed,
+    /// Number of frames in which a dialog for the file or the writing may still begin.
+    frames_left: u8,
+}
+
+/// Number of frames without a dialog and without writing after which a saving that was chosen has been canceled.
+const FRAMES_TO_BEGIN: u8 = 4;
+
 /// The question whether to close without saving.
 #[derive(Default)]
 pub struct Closing {
     /// What is asked about; none while nothing is asked.
     asked: Option<Closed>,
+    /// What is saved before it is closed; none while nothing is.
+    saving: Option<Saving>,
     /// Whether a person has chosen to close the window without saving.
     is_confirmed: bool,
 }
@@ -64,6 +77,7 @@ impl Closing {
             ui.horizontal(|ui| {
                 if cx.state.is_unsaved() && ui.button("Save workspace\u{2026}").clicked() {
                     self.asked = None;
+                    self.saving = Some(Saving { closed, frames_left: FRAMES_TO_BEGIN });
                     cx.act(Action::Save);
                 }
                 if ui.button("Close without saving").clicked() {
@@ -76,6 +90,25 @@ impl Closing {
         });
         if modal.should_close() {
             self.asked = None;
+        }
+    }
+
+    /// Closes what was to be saved before, once it is saved. `is_saving`: whether a dialog is open or a file is being written. A dialog that was
+    /// canceled, and a file that could not be written, close nothing.
+    pub fn close_when_saved(&mut self, ui: &Ui, cx: &mut PanelContext, is_saving: bool) {
+        let Some(Saving { closed, frames_left }) = self.saving else { return };
+        if is_saving {
+            self.saving = Some(Saving { closed, frames_left: 1 });
+        } else if cx.state.is_unsaved() {
+            self.saving = frames_left.checked_sub(1).map(|frames_left| Saving { closed, frames_left });
+            ui.ctx().request_repaint();
+        } else {
+            self.saving = None;
+            match closed {
+                // The window closes at once, unless the work on another photograph is not saved.
+                Closed::Window => ui.ctx().send_viewport_cmd(ViewportCommand::Close),
+                Closed::Photograph => cx.send(JobCommand::ClosePhotograph),
+            }
         }
     }
 

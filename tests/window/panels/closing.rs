@@ -83,3 +83,27 @@ fn a_photograph_with_unsaved_work_is_closed_when_that_is_confirmed() {
         assert_eq!(state(&window).others.len(), others, "{button}");
     }
 }
+
+#[test]
+fn a_photograph_is_closed_once_its_workspace_is_saved() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = tiny_window();
+    open_sample(&mut window, sample::NAME);
+    change(&mut window);
+    let save_and_close = |window: &mut Window| {
+        press(window, Modifiers::COMMAND, Key::W);
+        click(window, Role::Button, "Save workspace");
+        window.run_steps(8);
+    };
+    save_and_close(&mut window);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    window.run_steps(8);
+    press(&mut window, Modifiers::COMMAND, Key::S);
+    answer(&mut window, &folder.path().join("work.dichroscope"));
+    window.run_steps(8);
+    assert!(!state(&window).is_unsaved(), "{:?}", state(&window).notices);
+    assert_eq!(state(&window).others.len(), 1, "a dialog that was canceled closes nothing, also later");
+    apply(&mut window, Edit::SetParameter(Parameter::SliceWidth, Setting::Value(5.0), None));
+    save_and_close(&mut window);
+    assert_eq!(state(&window).others.len(), 0, "{:?}", state(&window).notices);
+}
