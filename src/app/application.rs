@@ -5,7 +5,7 @@ use super::export_input::ExportInput;
 use super::exports::write_export;
 use super::panics::catch_panic;
 use super::reduce::reduce_report;
-use super::report::{Report, Work};
+use super::report::{Report, Work, WrittenWorkspace};
 use super::{
     AnalysisRequest, Command, Effect, ExportKind, Job, State, WhatIfProgress, WhatIfRequest, jobs, read,
     reduce, rescue,
@@ -170,7 +170,11 @@ impl Application {
                 };
                 let write = move || {
                     let outcome = write_export(&export, &input, &stop, &send);
-                    let workspace = (export.kind == ExportKind::Workspace).then_some(export.path);
+                    let picture = input.picture.filter(|_| export.kind == ExportKind::Workspace);
+                    let written = |picture| {
+                        Box::new(WrittenWorkspace { path: export.path, picture, document: input.document })
+                    };
+                    let workspace = picture.map(written);
                     Report::Exported { outcome, workspace }
                 };
                 self.run("writer", Work::Export, write);

@@ -1,12 +1,20 @@
 //! The reports of workers. Only [`super::Application`] applies reports to the state.
 
-use super::{Preview, WhatIfProgress, WhatIfRequest, Workspace};
+use super::{Document, Preview, WhatIfProgress, WhatIfRequest, Workspace};
 use crate::analysis::Stage;
 use crate::params::Params;
 use crate::trace::Replay;
 use crate::view::{Elsewhere, ElsewhereKind, ElsewherePaths, Picture, ResultSnapshot};
 use std::path::PathBuf;
 use std::sync::Arc;
+
+/// A workspace that was written: of which photograph, and the document as it was written.
+#[derive(Clone, Debug)]
+pub(super) struct WrittenWorkspace {
+    pub(super) path: PathBuf,
+    pub(super) picture: Arc<Picture>,
+    pub(super) document: Document,
+}
 
 /// A report of a worker.
 #[derive(Clone, Debug)]
@@ -95,8 +103,8 @@ pub(super) enum Report {
     Exported {
         /// The sentence to show.
         outcome: Result<String, String>,
-        /// The file of the export, if the export is a workspace.
-        workspace: Option<PathBuf>,
+        /// What was written, if the export is a workspace.
+        workspace: Option<Box<WrittenWorkspace>>,
     },
     /// A what-if job made progress or ended.
     WhatIf(WhatIfRequest, WhatIfProgress),

@@ -7,7 +7,7 @@ use crate::app::{JobCommand, State};
 use egui::{Id, Label, Modal, RichText, Ui, ViewportCommand};
 
 /// What is to be closed.
-#[derive(Clone, Copy, PartialEq, Eq)]
+#[derive(Clone, Copy)]
 enum Closed {
     Window,
     Photograph,

@@ -83,3 +83,19 @@ impl LightFindings {
         Some(crate::color::axis_angle_deg(&first.into(), &second.into()))
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::float_cmp, reason = "exactness is what is tested")]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_claimed_interval_is_at_least_the_spread_of_a_light_that_was_found() {
+        let claimed = |interval_deg, spread_deg| {
+            LightFindings { interval_deg, spread_deg, ..LightFindings::default() }.claimed_interval_deg()
+        };
+        assert_eq!(claimed(Some(1.0), 3.0), Some(3.0));
+        assert_eq!(claimed(Some(4.0), 3.0), Some(4.0));
+        assert_eq!(claimed(None, 3.0), None, "no light, or a light that was given");
+    }
+}

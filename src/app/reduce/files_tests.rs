@@ -2,7 +2,7 @@
 
 use super::{reduce, reduce_report};
 use crate::app::awaited::AfterPin;
-use crate::app::report::Report;
+use crate::app::report::{Report, WrittenWorkspace};
 use crate::app::{
     Application, Edit, Effect, Executor, ExportKind, JobCommand, Question, Severity, State, Switching,
 };
@@ -107,6 +107,39 @@ fn a_file_that_cannot_be_read_does_not_keep_the_others_from_being_opened() {
     let error = state.notices.iter().find(|notice| notice.severity == Severity::Error).unwrap();
     let label_map = format!("without it, the label map {} cannot be compared", path("labels.png").display());
     assert!(error.text.contains("letter.png") && error.text.contains(&label_map), "{}", error.text);
+}
+
+#[test]
+fn a_workspace_saves_the_document_that_was_written_of_the_photograph_that_was_written() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    let mut application = opened(&[path("a.png")]);
+    let set_noise = |counts: f64| Edit::SetParameter(Parameter::CameraNoise, Setting::Value(counts), None);
+    application.apply(set_noise(4.0));
+    let written = |state: &State| WrittenWorkspace {
+        path: path("w.dichroscope"),
+        picture: Arc::clone(state.picture.as_ref().unwrap()),
+        document: state.document.clone(),
+    };
+    let report = |written: WrittenWorkspace| Report::Exported {
+        outcome: Ok("written".to_owned()),
+        workspace: Some(Box::new(written)),
+    };
+    let early = written(application.state());
+    application.apply(set_noise(5.0));
+    application.take_report(report(early));
+    assert!(
+        application.state().is_unsaved(),
+        "what was changed while the file was written is not in the file"
+    );
+    let late = written(application.state());
+    open(&mut application, &[path("b.png")]);
+    application.apply(set_noise(6.0));
+    application.take_report(report(late));
+    let state = application.state();
+    assert!(state.is_unsaved() && state.workspace_path.is_none(), "another photograph is shown meanwhile");
+    let other = &state.others[0];
+    assert!(!other.is_unsaved() && other.workspace_path == Some(path("w.dichroscope")));
 }
 
 #[test]

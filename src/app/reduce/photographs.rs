@@ -2,8 +2,10 @@
 
 use super::edits::{analyze, forget_defaults};
 use crate::app::photographs::MOST_OTHERS;
+use crate::app::report::WrittenWorkspace;
 use crate::app::{Effect, OpenPhotograph, Severity, State, Switching};
 use crate::view::Arrangement;
+use std::sync::Arc;
 
 /// Puts the photograph that is shown to the end of the others, before another one is shown. Of too many, the one without unsaved work that
 /// was shown longest ago is closed; where all have some, the one shown longest ago.
@@ -73,6 +75,16 @@ pub(super) fn compare(state: &mut State, compares: bool) {
         if image.other == image.layer {
             image.other = other;
         }
+    }
+}
+
+/// Takes a written workspace for what is saved of its photograph, which may not be the one that is shown any more.
+pub(super) fn take_written(state: &mut State, written: WrittenWorkspace) {
+    let WrittenWorkspace { path, picture, document } = written;
+    if state.picture.as_ref().is_some_and(|shown| Arc::ptr_eq(shown, &picture)) {
+        (state.workspace_path, state.saved) = (Some(path), document);
+    } else if let Some(other) = state.others.iter_mut().find(|other| Arc::ptr_eq(&other.picture, &picture)) {
+        (other.workspace_path, other.saved) = (Some(path), document);
     }
 }
 

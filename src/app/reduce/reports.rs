@@ -3,12 +3,12 @@
 use super::debugger::take_trace;
 use super::edits::{analyze, edit_params, forget_defaults, tell_of_parameters};
 use super::elsewhere::{lack_elsewhere, take_elsewhere, warning_of, with_unused_truth};
-use super::photographs::keep_open;
+use super::photographs::{keep_open, take_written};
 use super::questions::take_progress;
 use crate::app::awaited::AfterPin;
 use crate::app::files_to_open::with_unopened;
 use crate::app::photographs::MOST_OTHERS;
-use crate::app::report::{Report, Work};
+use crate::app::report::{Report, Work, WrittenWorkspace};
 use crate::app::state::Restoring;
 use crate::app::{Document, Effect, Preview, Severity, State, ViewSettings, Workspace};
 use crate::params::IlluminantSetting;
@@ -83,19 +83,21 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
                 job.files = Some((done, total));
             }
         }
-        Report::Exported { outcome, workspace } => end_export(state, outcome, workspace),
+        Report::Exported { outcome, workspace } => {
+            end_export(state, outcome, workspace.map(|written| *written));
+        }
         Report::WhatIf(request, progress) => take_progress(state, request, progress),
     }
     Vec::new()
 }
 
-/// Ends an export. `workspace`: where the export was a workspace, which is from now on the one that is saved to.
-fn end_export(state: &mut State, outcome: Result<String, String>, workspace: Option<PathBuf>) {
+/// Ends an export. `workspace`: where the export was a workspace, which is from now on the one that its photograph is saved to.
+fn end_export(state: &mut State, outcome: Result<String, String>, workspace: Option<WrittenWorkspace>) {
     (state.jobs.export, state.jobs.failed_export) = (None, None);
     match outcome {
         Ok(text) => {
-            if let Some(path) = workspace {
-                (state.workspace_path, state.saved) = (Some(path), state.document.clone());
+            if let Some(written) = workspace {
+                take_written(state, written);
             }
             state.notify(Severity::Done, text);
         }
