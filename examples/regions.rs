@@ -7,7 +7,6 @@ use dichroscope::analysis::Session;
 use dichroscope::params::Params;
 use dichroscope::photo::{self, ReadOptions};
 use std::path::Path;
-use std::sync::Arc;
 
 const SAMPLE: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png");
 
@@ -16,7 +15,7 @@ fn main() -> anyhow::Result<()> {
     let photo = photo::read(Path::new(&path), &ReadOptions::default())?;
     println!("{path}: {} × {} pixels, {}", photo.image.width(), photo.image.height(), photo.encoding);
 
-    let analysis = Session::new(Arc::new(photo.image)).run(&Params::default(), &mut ())?;
+    let analysis = Session::new(photo.image).run(&Params::default(), &mut ())?;
     match analysis.illuminant {
         Some(light) => {
             println!("light: {}, from the highlights of {} regions", vector(light.direction), light.objects);

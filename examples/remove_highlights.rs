@@ -18,7 +18,7 @@ fn main() -> anyhow::Result<()> {
     let folder = arguments.next().map_or_else(std::env::temp_dir, PathBuf::from);
 
     let photo = photo::read(Path::new(&path), &ReadOptions::default())?;
-    let analysis = Session::new(Arc::new(photo.image.clone())).run(&Params::default(), &mut ())?;
+    let analysis = Session::new(Arc::clone(&photo.image)).run(&Params::default(), &mut ())?;
 
     // The body image shows the scene as if every surface were matte. A pixel in no region keeps its input color.
     let written = write_matte(&photo, &analysis.intrinsic, 0.0, &folder)?;

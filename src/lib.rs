@@ -13,11 +13,11 @@
 //!
 //! ```
 //! use dichroscope::{analysis::Session, photo, params::Params};
-//! use std::{path::Path, sync::Arc};
+//! use std::path::Path;
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! let photo = photo::read(Path::new("assets/tiny/camera8.png"), &photo::ReadOptions::default())?;
-//! let analysis = Session::new(Arc::new(photo.image)).run(&Params::default(), &mut ())?;
+//! let analysis = Session::new(photo.image).run(&Params::default(), &mut ())?;
 //! println!("light: {:?}", analysis.illuminant);
 //! for region in &analysis.intrinsic.regions {
 //!     println!("{}: {} pixels, body {:?}, {:?}", region.id, region.pixels, region.body, region.warnings);

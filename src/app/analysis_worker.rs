@@ -166,7 +166,7 @@ impl AnalysisWorker {
     ) -> Option<Arc<ResultSnapshot>> {
         let same = |session: &(Arc<Picture>, Session)| Arc::ptr_eq(&session.0, &request.picture);
         if !self.session.as_ref().is_some_and(same) {
-            let image = Arc::new(request.picture.photo.image.clone());
+            let image = Arc::clone(&request.picture.photo.image);
             self.session = Some((Arc::clone(&request.picture), Session::new(image)));
             (self.last, self.last_preview) = (None, None);
         }

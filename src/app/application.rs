@@ -243,7 +243,7 @@ impl Application {
         let (outbox, wake) = (self.outbox.clone(), Arc::clone(&self.wake));
         let mut observer = ProgressReporter { request, stop: Arc::clone(&self.stop_what_if), outbox, wake };
         self.run("what if", Work::WhatIf, move || {
-            let mut session = Session::new(Arc::new(picture.photo.image.clone()));
+            let mut session = Session::new(Arc::clone(&picture.photo.image));
             // An area of another picture restricts nothing.
             let _ = session.restrict(area);
             let found = what_if(&mut session, &params, request.pixel, &mut observer);

@@ -109,7 +109,7 @@ fn foreign(kind: ElsewhereKind, path: &Path, picture: &Picture) -> Result<Foreig
         ElsewhereKind::Diffuse => {
             let photo = photo::read(path, &picture.reading).map_err(|error| with_source(&error))?;
             let size = (photo.image.width(), photo.image.height());
-            (ForeignResult { labels: None, diffuse: Some(photo.image.pixels) }, size)
+            (ForeignResult { labels: None, diffuse: Some(Arc::unwrap_or_clone(photo.image).pixels) }, size)
         }
     };
     let (width, height) = picture.size();

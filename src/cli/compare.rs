@@ -15,6 +15,7 @@ use dichroscope::truth::{
     self, Agreement, ForeignResult, ResultPictures, doubt_about_truth, read_label_map, score,
 };
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 /// Hold a label map or a diffuse picture that was made elsewhere against a result, and against the ground truth
 #[derive(Debug, Args)]
@@ -72,7 +73,7 @@ fn read(arguments: &Arguments) -> Result<ForeignResult> {
     let labels = arguments.labels.as_deref().map(read_label_map).transpose()?;
     let options = arguments.reading.options();
     let diffuse = arguments.diffuse.as_deref().map(|path| photo::read(path, &options)).transpose()?;
-    Ok(ForeignResult { labels, diffuse: diffuse.map(|photo| photo.image.pixels) })
+    Ok(ForeignResult { labels, diffuse: diffuse.map(|photo| Arc::unwrap_or_clone(photo.image).pixels) })
 }
 
 /// The scores of what was made elsewhere, and those of the result.

@@ -11,7 +11,6 @@ use dichroscope::photo::{self, ReadOptions};
 use dichroscope::truth::sample::CAMERA_FILE;
 use dichroscope::truth::{self, CandidateCounts, ResultPictures, doubt_about_truth, find_truth, score};
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use walkdir::WalkDir;
 
 /// Score results against ground truth, with what doing nothing scores beside each figure in decibels
@@ -135,7 +134,7 @@ fn count_candidates(
         );
     }
     let image = photo::read(photograph, &ReadOptions::default())?.image;
-    let (analysis, trace) = Session::new(Arc::new(image)).run_traced(&report.params.asked(), &mut ())?;
+    let (analysis, trace) = Session::new(image).run_traced(&report.params.asked(), &mut ())?;
     CandidateCounts::of(truth, &analysis, &trace)
         .context("the photograph and the ground truth differ in size")
 }

@@ -172,7 +172,7 @@ impl Work<'_> {
     }
 
     fn scene(&self, shot: LoadedPhoto, reference: Option<Reference>) -> Result<Scene> {
-        let mut session = Session::new(Arc::new(shot.photo.image.clone()));
+        let mut session = Session::new(Arc::clone(&shot.photo.image));
         let area = self.area.as_ref();
         session.restrict(area.map(Area::mask)).context("--area")?;
         let analysis = session.run(&self.params, &mut Watch(self.interrupt.clone()))?;

@@ -11,6 +11,7 @@ use dichroscope::photo::{self, Photo, ReadOptions};
 use dichroscope::raster::{Mask, Raster, UNASSIGNED};
 use dichroscope::truth::sample::CAMERA_FILE;
 use dichroscope::truth::{self, GroundTruth, ReportInput};
+use rayon::prelude::*;
 use std::path::Path;
 use std::sync::Arc;
 use std::time::Instant;
@@ -77,7 +78,7 @@ impl Reference {
         let named = folder.join(image);
         let path = if named.is_file() { named } else { folder.join(CAMERA_FILE) };
         let truth = GroundTruth::read(folder)?;
-        Ok(Self { truth, camera: photo::read(&path, options)?.image.pixels })
+        Ok(Self { truth, camera: Arc::unwrap_or_clone(photo::read(&path, options)?.image).pixels })
     }
 }
 
@@ -144,7 +145,7 @@ pub(super) struct Finished {
 pub(super) fn analyze(shot: &LoadedPhoto, plan: &Plan, target: &Path) -> Result<Finished> {
     let mut clock =
         StageClock { begin: None, timings: Timings::default(), interrupt: plan.interrupt.clone() };
-    let image = Arc::new(shot.photo.image.clone());
+    let image = Arc::clone(&shot.photo.image);
     let mut session = Session::new(image);
     if let Some(area) = plan.area {
         session.restrict(Some(Arc::clone(&area.mask))).with_context(|| format!("--area {}", area.name))?;
@@ -168,13 +169,9 @@ pub(super) fn analyze(shot: &LoadedPhoto, plan: &Plan, target: &Path) -> Result<
 }
 
 fn lit_share(analysis: &Analysis) -> Option<f64> {
-    let (mut lit, mut assigned) = (0usize, 0usize);
-    for (pixel, &region) in analysis.finals.labels.as_slice().iter().enumerate() {
-        if !analysis.masks.dark(pixel) {
-            lit += 1;
-            assigned += usize::from(region != UNASSIGNED);
-        }
-    }
+    let labels = analysis.finals.labels.as_slice();
+    let of_lit = || labels.par_iter().enumerate().filter(|(pixel, _)| !analysis.masks.dark(*pixel));
+    let (lit, assigned) = (of_lit().count(), of_lit().filter(|(_, region)| **region != UNASSIGNED).count());
     (lit > 0).then(|| assigned as f64 / lit as f64)
 }
 

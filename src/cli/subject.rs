@@ -64,7 +64,7 @@ impl Subject {
         let bytes = place::read_bytes(&self.image).map_err(|error| AnalyzeError::File(error.into()))?;
         let photo = photo::decode(&bytes, &place::name_of(&self.image), &reading);
         let photo = photo.map_err(|error| AnalyzeError::File(error.into()))?;
-        let image = Arc::new(photo.image);
+        let image = photo.image;
         check(&image).with_context(|| self.image.display().to_string()).map_err(AnalyzeError::Usage)?;
         let mut session = Session::new(Arc::clone(&image));
         if let Some(area) = area {

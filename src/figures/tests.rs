@@ -11,7 +11,7 @@ use crate::truth::{self, GroundTruth, Reference, ReportInput};
 use std::sync::Arc;
 
 fn scene_of(photo: Photo, params: &Params, truth: Option<GroundTruth>) -> Scene {
-    let analysis = Session::new(Arc::new(photo.image.clone())).run(params, &mut ()).unwrap();
+    let analysis = Session::new(Arc::clone(&photo.image)).run(params, &mut ()).unwrap();
     let reference = truth.as_ref().map(|truth| Reference { truth, camera: &photo.image.pixels });
     let report = truth::report(ReportInput {
         photo: &photo,
@@ -192,8 +192,10 @@ fn light_beyond_white_is_shown_darker_and_said_so() {
     let photo = |bright: f32| {
         let mut photo =
             decode(b"P6 2 1 255\n\x09\x09\x09\x09\x09\x09", "made.ppm", &ReadOptions::default()).unwrap();
-        photo.image =
-            crate::photo::LinearImage::new(Raster::filled(40, 40, [bright, bright / 2.0, 3.0]), None);
+        photo.image = Arc::new(crate::photo::LinearImage::new(
+            Raster::filled(40, 40, [bright, bright / 2.0, 3.0]),
+            None,
+        ));
         photo
     };
     assert!(

@@ -42,6 +42,7 @@ use crate::raster::{Mask, Raster};
 use std::fs::File;
 use std::io::Read;
 use std::path::Path;
+use std::sync::Arc;
 
 /// Default number of counts at full scale.
 pub const FULL_SCALE_COUNTS: f64 = 255.0;
@@ -72,7 +73,7 @@ pub struct Photo {
     /// Name of the file as given by the caller.
     pub name: String,
     /// Linear image for the analysis, upright.
-    pub image: LinearImage,
+    pub image: Arc<LinearImage>,
     /// Samples and color information of the file, upright.
     pub source: Source,
     /// The tone curves of the file, and the reason for their choice.
@@ -177,7 +178,7 @@ pub fn decode(bytes: &[u8], name_hint: &str, options: &ReadOptions) -> Result<Ph
             f64::from(largest) / full_scale
         ));
     }
-    let image = LinearImage::new(pixels, saturation).with_coding(coding);
+    let image = Arc::new(LinearImage::new(pixels, saturation).with_coding(coding));
     warnings.extend(pixel_warnings(&source, &image, huge));
     Ok(Photo { name: name_hint.to_owned(), image, source, encoding, full_scale, warnings })
 }

@@ -55,10 +55,11 @@ mod tests {
     use super::*;
     use crate::photo::{EncodingChoice, ReadOptions, decode};
     use crate::truth::sample::SAMPLES;
+    use std::sync::Arc;
 
     fn photograph(bytes: &[u8], encoding: EncodingChoice) -> Raster<[f32; 3]> {
         let options = ReadOptions { encoding, ..ReadOptions::default() };
-        decode(bytes, "camera8.png", &options).unwrap().image.pixels
+        Arc::unwrap_or_clone(decode(bytes, "camera8.png", &options).unwrap().image).pixels
     }
 
     #[test]

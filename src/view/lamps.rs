@@ -78,7 +78,7 @@ mod tests {
 
     #[test]
     fn a_pixel_has_the_lamp_of_its_regions_surface_vector_and_one_lamp_is_no_layer() {
-        let image = std::sync::Arc::new(tiny_picture().photo.image.clone());
+        let image = std::sync::Arc::clone(&tiny_picture().photo.image);
         let analyze = |params: &Params| {
             crate::analysis::Session::new(std::sync::Arc::clone(&image)).run(params, &mut ()).unwrap()
         };

@@ -98,7 +98,7 @@ pub(crate) fn tiny() -> Arc<ResultSnapshot> {
     static SNAPSHOT: OnceLock<Arc<ResultSnapshot>> = OnceLock::new();
     let analyze = || {
         let (picture, params) = (tiny_picture(), Params::default());
-        let image = Arc::new(picture.photo.image.clone());
+        let image = Arc::clone(&picture.photo.image);
         let (analysis, trace) = Session::new(image).run_traced(&params, &mut ()).unwrap();
         let snapshot = snapshot(&picture, &params, analysis);
         snapshot.trace.get_or_init(|| Arc::new(trace));
@@ -110,7 +110,7 @@ pub(crate) fn tiny() -> Arc<ResultSnapshot> {
 /// What an analysis of `picture` finds.
 pub(crate) fn shown(picture: &Arc<Picture>) -> ResultSnapshot {
     let params = Params::paper();
-    let image = Arc::new(picture.photo.image.clone());
+    let image = Arc::clone(&picture.photo.image);
     let analysis = Session::new(image).run(&params, &mut ()).unwrap();
     snapshot(picture, &params, analysis)
 }

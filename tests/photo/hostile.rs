@@ -154,7 +154,7 @@ fn intact_report() -> &'static str {
         let tiny = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/tiny/camera8.png");
         let photo = dichroscope::photo::read(&tiny, &ReadOptions::default()).unwrap();
         let params = Params::default();
-        let analysis = Session::new(Arc::new(photo.image.clone())).run(&params, &mut ()).unwrap();
+        let analysis = Session::new(Arc::clone(&photo.image)).run(&params, &mut ()).unwrap();
         let report = Report::new(ImageFacts::of(&photo, &"0".repeat(64)), &params, &analysis, &[]);
         report.to_json().unwrap()
     })

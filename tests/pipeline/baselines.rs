@@ -17,7 +17,7 @@ use std::sync::Arc;
 /// The bundled picture of eight plastic objects with its ground truth.
 struct Plastic {
     truth: GroundTruth,
-    image: LinearImage,
+    image: Arc<LinearImage>,
 }
 
 impl Plastic {

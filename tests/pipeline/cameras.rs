@@ -24,7 +24,7 @@ fn jpeg(image: &LinearImage, quality: u8) -> Vec<u8> {
 
 /// The image of a file, linear.
 fn reread(file: &[u8]) -> LinearImage {
-    decode(file, "photo", &ReadOptions::default()).unwrap().image
+    Arc::unwrap_or_clone(decode(file, "photo", &ReadOptions::default()).unwrap().image)
 }
 
 /// Angle between the light that was found and white, degrees.

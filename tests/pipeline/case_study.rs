@@ -8,11 +8,12 @@ use dichroscope::params::{Parameter, Params, Preset, Setting};
 use dichroscope::photo::{LinearImage, ReadOptions, read};
 use dichroscope::truth::GroundTruth;
 use std::path::Path;
+use std::sync::Arc;
 
 /// A bundled picture of the paper with its column of table 6.
 struct Case {
     truth: GroundTruth,
-    image: LinearImage,
+    image: Arc<LinearImage>,
     params: Params,
 }
 

@@ -41,7 +41,7 @@ impl Observer for Working {
 /// The result of a photograph's working picture, with colors of regions that no other result has.
 fn preview(picture: &Arc<Picture>, generation: u64) -> Preview {
     let mut working = Working::default();
-    let mut session = Session::new(Arc::new(picture.photo.image.clone()));
+    let mut session = Session::new(Arc::clone(&picture.photo.image));
     session.run(&params(), &mut working).unwrap();
     let (analysis, blocks) = working.0.expect("the working picture is not the photograph");
     let colors = (0..analysis.intrinsic.regions.len()).map(|id| [200, 40 * id as u8, 90]).collect();
