@@ -18,7 +18,7 @@
 use super::images::Images;
 use super::region_plan::RegionPlan;
 use crate::photo::Masks;
-use crate::raster::{LabelMap, PixelIndex, RegionId, UNASSIGNED};
+use crate::raster::{LabelMap, Mask, PixelIndex, RegionId, UNASSIGNED};
 use crate::segment::AnalysisInput;
 use crate::trace::{BordersLimited, LimitedPixel, PixelKind};
 use rayon::prelude::*;
@@ -31,29 +31,26 @@ pub(super) fn limit_surface_at_borders(
     images: &mut Images,
 ) -> BordersLimited {
     let reach_px = input.mixing_reach_px();
-    if !input.refine.border_mixtures {
+    if !input.refine.border_mixtures || !plans.iter().any(RegionPlan::model_fits) {
         return BordersLimited { reach_px: reach_px as u32, pixels: Vec::new() };
     }
-    let borders = Borders { labels, masks: input.masks, reach: reach_px as isize };
-    let (width, height) = (labels.width(), labels.height());
-    let limited_pixel = |images: &Images, pixel: usize| {
-        let plan = plans.get(RegionId::from_label(labels[pixel])?.index())?;
-        let amount = sum_of_bands(images.surface[pixel]);
-        let can_be_mixed = plan.model_fits() && amount > 0.0 && !input.masks.distorted(pixel);
-        if !can_be_mixed || borders.is_inside(pixel, BorderKinds::All) {
-            return None;
-        }
-        let limit = borders.surface_inside(pixel, images)?;
-        let pixel = PixelIndex::from_index(pixel);
-        (limit < amount).then(|| LimitedPixel { pixel, kept: limit / amount })
+    let borders = Borders { labels, masks: input.masks, reach: reach_px };
+    let inside = borders.inside(BorderKinds::All);
+    let unlimited = &*images;
+    let is_mixed = |&pixel: &usize| {
+        let plan = RegionId::from_label(labels[pixel]).and_then(|region| plans.get(region.index()));
+        !inside[pixel]
+            && plan.is_some_and(RegionPlan::model_fits)
+            && sum_of_bands(unlimited.surface[pixel]) > 0.0
+            && !input.masks.distorted(pixel)
     };
-    let found: Vec<LimitedPixel> = (0..height)
-        .into_par_iter()
-        .flat_map_iter(|y| {
-            let (images, limited_pixel) = (&*images, &limited_pixel);
-            (y * width..(y + 1) * width).filter_map(move |pixel| limited_pixel(images, pixel))
-        })
-        .collect();
+    let mixed: Vec<usize> = (0..labels.len()).into_par_iter().filter(is_mixed).collect();
+    let limits = borders.surface_inside(&mixed, &inside, unlimited);
+    let limited = |(&pixel, limit): (&usize, Option<f32>)| {
+        let (limit, amount) = (limit?, sum_of_bands(unlimited.surface[pixel]));
+        (limit < amount).then(|| LimitedPixel { pixel: PixelIndex::from_index(pixel), kept: limit / amount })
+    };
+    let found: Vec<LimitedPixel> = mixed.iter().zip(limits).filter_map(limited).collect();
     for &LimitedPixel { pixel, kept } in &found {
         let pixel = pixel.index();
         let surface = images.surface[pixel];
@@ -75,60 +72,112 @@ fn sum_of_bands(color: [f32; 3]) -> f32 {
 struct Borders<'a> {
     /// Region of each pixel.
     labels: &'a LabelMap,
-    /// The marks of each pixel: an unassigned distorted pixel may be the middle of a highlight, and is no border.
+    /// The marks of each pixel.
     masks: &'a Masks,
     /// How far a border mixes colors along each axis, pixels.
-    reach: isize,
+    reach: usize,
 }
 
+/// Number of rows that one task looks at; the task reads the rows within reach of a border in addition.
+const BAND_ROWS: usize = 64;
+/// Stands for the label of a pixel that is no border, among the smallest labels and among the largest.
+const NO_BORDER: [u16; 2] = [u16::MAX, u16::MIN];
+
 impl Borders<'_> {
-    /// The pixels within a distance of `pixel` along each axis, each with the larger of its distances along both axes.
-    fn within(&self, pixel: usize, distance: isize) -> impl Iterator<Item = (usize, isize)> + use<> {
-        let (width, height) = (self.labels.width() as isize, self.labels.height() as isize);
-        let (x, y) = (pixel as isize % width, pixel as isize / width);
-        let rows = (y - distance).max(0)..(y + distance + 1).min(height);
-        rows.flat_map(move |v| {
-            let columns = (x - distance).max(0)..(x + distance + 1).min(width);
-            columns.map(move |u| ((v * width + u) as usize, (u - x).abs().max((v - y).abs())))
-        })
-    }
-
-    /// Whether no border of a kind is within reach of the pixel.
-    fn is_inside(&self, pixel: usize, kinds: BorderKinds) -> bool {
-        let own = self.labels[pixel];
-        self.within(pixel, self.reach).all(|(near, _)| {
-            let label = self.labels[near];
-            let is_dark = self.masks.dark(near);
-            label == own
-                || (label == UNASSIGNED && !is_dark && self.masks.distorted(near))
-                || (is_dark && kinds == BorderKinds::Lit)
-        })
-    }
-
-    /// The mean surface reflection, sum of the bands, of the nearest pixels of the region of `pixel` that are out of
-    /// reach of any border. Where no such pixel lies within `2 * reach + 1` pixels: of the nearest pixels out of reach
-    /// of the borders [`BorderKinds::Lit`]. `None` where neither exists.
-    fn surface_inside(&self, pixel: usize, images: &Images) -> Option<f32> {
-        [BorderKinds::All, BorderKinds::Lit]
-            .into_iter()
-            .find_map(|kinds| self.nearest_mean(pixel, images, kinds))
-    }
-
-    fn nearest_mean(&self, pixel: usize, images: &Images, kinds: BorderKinds) -> Option<f32> {
-        let own = self.labels[pixel];
-        let (mut nearest, mut sum, mut count) = (isize::MAX, 0.0, 0.0);
-        for (near, distance) in self.within(pixel, 2 * self.reach + 1) {
-            if self.labels[near] != own || distance > nearest || !self.is_inside(near, kinds) {
-                continue;
+    /// The pixels with no border of a kind within reach: all labels around are the pixel's own, but for pixels that are no border.
+    fn inside(&self, kinds: BorderKinds) -> Mask {
+        let (width, height) = (self.labels.width(), self.labels.height());
+        let mut inside = Mask::filled(width, height, false);
+        let bands = inside.as_mut_slice().par_chunks_mut((width * BAND_ROWS).max(1)).enumerate();
+        bands.for_each(|(band, inside)| {
+            let top = band * BAND_ROWS;
+            let rows = inside.len() / width;
+            let first = top.saturating_sub(self.reach);
+            let last = (top + rows + self.reach).min(height);
+            let across: Vec<[Vec<u16>; 2]> = (first..last).map(|y| self.extremes_across(y, kinds)).collect();
+            for (y, inside) in (top..).zip(inside.chunks_mut(width)) {
+                let near = y.saturating_sub(self.reach)..(y + self.reach + 1).min(height);
+                let near = &across[near.start - first..near.end - first];
+                for (x, (inside, &own)) in inside.iter_mut().zip(self.labels.row(y)).enumerate() {
+                    *inside = near.iter().all(|[least, most]| least[x] >= own && most[x] <= own);
+                }
             }
-            if distance < nearest {
-                (nearest, sum, count) = (distance, 0.0, 0.0);
+        });
+        inside
+    }
+
+    /// The smallest and the largest label within reach along row `y`, without the pixels that are no border.
+    fn extremes_across(&self, y: usize, kinds: BorderKinds) -> [Vec<u16>; 2] {
+        let width = self.labels.width();
+        let labels = self.labels.row(y).iter().enumerate();
+        let [least, most] = NO_BORDER;
+        let (smallest, largest): (Vec<u16>, Vec<u16>) = labels
+            .map(
+                |(x, &label)| {
+                    if self.is_no_border(y * width + x, kinds) { (least, most) } else { (label, label) }
+                },
+            )
+            .unzip();
+        [spread(&smallest, self.reach, u16::min), spread(&largest, self.reach, u16::max)]
+    }
+
+    /// Whether a pixel is a border of no region: an unassigned distorted pixel may be the middle of a highlight, and a dark pixel is none of
+    /// the borders [`BorderKinds::Lit`].
+    fn is_no_border(&self, pixel: usize, kinds: BorderKinds) -> bool {
+        if self.masks.dark(pixel) {
+            kinds == BorderKinds::Lit
+        } else {
+            self.labels[pixel] == UNASSIGNED && self.masks.distorted(pixel)
+        }
+    }
+
+    /// Of each of `pixels`, the mean surface reflection, sum of the bands, of the nearest pixels of the same region that are out of
+    /// reach of any border, which are `inside`. Where no such pixel lies within `2 * reach + 1` pixels: of the nearest pixels out of
+    /// reach of the borders [`BorderKinds::Lit`]. `None` where neither exists.
+    fn surface_inside(&self, pixels: &[usize], inside: &Mask, images: &Images) -> Vec<Option<f32>> {
+        let mean = |&pixel: &usize| self.nearest_mean(pixel, inside, images);
+        let means: Vec<Option<f32>> = pixels.par_iter().map(mean).collect();
+        if means.iter().all(Option::is_some) {
+            return means;
+        }
+        let inside_lit = self.inside(BorderKinds::Lit);
+        let mean = |pixel: usize| self.nearest_mean(pixel, &inside_lit, images);
+        pixels.par_iter().zip(means).map(|(&pixel, found)| found.or_else(|| mean(pixel))).collect()
+    }
+
+    /// The mean surface reflection, sum of the bands, of the nearest pixels of the region of `pixel` that are `inside`, within
+    /// `2 * reach + 1` pixels along each axis.
+    fn nearest_mean(&self, pixel: usize, inside: &Mask, images: &Images) -> Option<f32> {
+        let (width, height) = (self.labels.width(), self.labels.height());
+        let (x, y) = (pixel % width, pixel / width);
+        let (own, distance) = (self.labels[pixel], 2 * self.reach + 1);
+        let (mut nearest, mut sum, mut count) = (usize::MAX, 0.0, 0.0);
+        for v in y.saturating_sub(distance)..(y + distance + 1).min(height) {
+            for u in x.saturating_sub(distance)..(x + distance + 1).min(width) {
+                let (near, distance) = (v * width + u, u.abs_diff(x).max(v.abs_diff(y)));
+                if self.labels[near] != own || distance > nearest || !inside[near] {
+                    continue;
+                }
+                if distance < nearest {
+                    (nearest, sum, count) = (distance, 0.0, 0.0);
+                }
+                sum += sum_of_bands(images.surface[near]);
+                count += 1.0;
             }
-            sum += sum_of_bands(images.surface[near]);
-            count += 1.0;
         }
         (count > 0.0).then(|| sum / count)
     }
+}
+
+/// Of each value of a row, what `pick` takes of the values within `reach`.
+fn spread(row: &[u16], reach: usize, pick: impl Fn(u16, u16) -> u16) -> Vec<u16> {
+    let mut spread = row.to_vec();
+    for distance in 1..=reach.min(row.len().saturating_sub(1)) {
+        let (left, right) = (&row[..row.len() - distance], &row[distance..]);
+        spread.iter_mut().zip(right).for_each(|(value, &near)| *value = pick(*value, near));
+        spread[distance..].iter_mut().zip(left).for_each(|(value, &near)| *value = pick(*value, near));
+    }
+    spread
 }
 
 /// The kinds of borders of a region.
@@ -145,6 +194,10 @@ mod tests {
     use super::*;
     use crate::photo::{LinearImage, MaskLimits};
     use crate::raster::Raster;
+    use proptest::prelude::*;
+
+    const WIDTH: usize = 9;
+    const HEIGHT: usize = 7;
 
     /// The surface reflection inside, from a row of labels and one of surface reflection in counts, of the pixel at `pixel`.
     fn inside(labels: &[u16], surface: &[f32], pixel: usize) -> Option<f32> {
@@ -165,9 +218,45 @@ mod tests {
         let masks = Masks::new(&image, &limits);
         let labels = LabelMap::from_vec(width, 1, labels.to_vec()).unwrap();
         let borders = Borders { labels: &labels, masks: &masks, reach: 1 };
-        (!borders.is_inside(pixel, BorderKinds::All))
-            .then(|| borders.surface_inside(pixel, &images))
-            .flatten()
+        let inside = borders.inside(BorderKinds::All);
+        if inside[pixel] {
+            return None;
+        }
+        borders.surface_inside(&[pixel], &inside, &images)[0]
+    }
+
+    proptest! {
+        #[test]
+        fn pixels_inside_have_no_border_within_reach(
+            pixels in prop::collection::vec((0u16..3, 0u8..3), WIDTH * HEIGHT),
+            reach in 1usize..4,
+        ) {
+            let color = |&(_, kind): &(u16, u8)| [[0.0, 80.0, 255.0][usize::from(kind)]; 3];
+            let colors = Raster::from_vec(WIDTH, HEIGHT, pixels.iter().map(color).collect()).unwrap();
+            let image = LinearImage::new(colors, Some(255.0));
+            let limits = MaskLimits { min_intensity: 9.0, clip_threshold: 240.0, bloom_density: 9 };
+            let masks = Masks::new(&image, &limits);
+            let labels = pixels.iter().map(|&(label, _)| label).collect();
+            let labels = LabelMap::from_vec(WIDTH, HEIGHT, labels).unwrap();
+            let borders = Borders { labels: &labels, masks: &masks, reach };
+            for kinds in [BorderKinds::All, BorderKinds::Lit] {
+                let inside = borders.inside(kinds);
+                for pixel in 0..labels.len() {
+                    let near = |other: &usize| {
+                        let [across, down] = [pixel % WIDTH, pixel / WIDTH];
+                        across.abs_diff(other % WIDTH).max(down.abs_diff(other / WIDTH)) <= reach
+                    };
+                    let is_no_border = |other: usize| match masks.dark(other) {
+                        true => kinds == BorderKinds::Lit,
+                        false => labels[other] == UNASSIGNED && masks.clipped(other),
+                    };
+                    let expected = (0..labels.len())
+                        .filter(near)
+                        .all(|other| labels[other] == labels[pixel] || is_no_border(other));
+                    prop_assert_eq!(inside[pixel], expected, "pixel {}", pixel);
+                }
+            }
+        }
     }
 
     #[test]
