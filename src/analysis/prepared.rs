@@ -127,13 +127,14 @@ impl<'a> Preparation<'a> {
     /// Makes masks and working picture, and measures the noise.
     pub(super) fn run<R: Recorder>(&self, recorder: &mut R) -> Prepared {
         let (image, factor) = (&self.subject.image, self.factor);
-        let (mut masks, mut working) = self.pictures(&self.limits);
+        let (mut masks, mut working) = self.pictures();
         let measured = || NoiseEstimate::measure(&working.image, &working.masks);
         let noise = noise_findings(image, &masks, if self.automatic_noise { measured() } else { None });
         let mut limits = self.limits;
         if self.automatic_intensity {
             limits.min_intensity = used_params(self.params, &working.image, factor, &noise).min_intensity;
-            (masks, working) = self.pictures(&limits);
+            masks = Arc::new(Arc::unwrap_or_clone(masks).with_dark_pixels(image, &limits));
+            working = working.with_dark_pixels(&masks, &limits);
         }
         let pixels = Blocks::new(1, image.width(), image.height());
         let sparse = || NoiseEstimate::measure_sparsely(image, &masks, &pixels, factor);
@@ -147,14 +148,14 @@ impl<'a> Preparation<'a> {
     }
 
     /// The masks of the photograph, and the working picture.
-    fn pictures(&self, limits: &MaskLimits) -> (Arc<Masks>, WorkingPicture) {
+    fn pictures(&self) -> (Arc<Masks>, WorkingPicture) {
         let Subject { image, area } = self.subject;
-        let masks = Masks::new(image, limits);
+        let masks = Masks::new(image, &self.limits);
         let masks = Arc::new(match area {
             Some(area) => masks.within(area),
             None => masks,
         });
-        let working = WorkingPicture::new(image, &masks, limits, self.factor);
+        let working = WorkingPicture::new(image, &masks, &self.limits, self.factor);
         (masks, working)
     }
 }

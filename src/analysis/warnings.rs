@@ -8,6 +8,7 @@ use crate::params::{Baseline, LEAST_LAMPS_ANGLE_DEG};
 use crate::photo::{CodingError, Masks};
 use crate::raster::LabelMap;
 use crate::segment::LightFindings;
+use rayon::prelude::*;
 
 /// Error of the values, in steps of 1/255 of the coded range, above which compression makes results doubtful.
 const DOUBTFUL_CODE_VALUES: f64 = 1.3;
@@ -91,7 +92,7 @@ pub(super) fn all_warnings(
     baseline: Option<Baseline>,
 ) -> Vec<RunWarning> {
     let labels = &analysis.finals.labels;
-    let has_regions = labels.as_slice().iter().any(|&label| label != 0);
+    let has_regions = labels.as_slice().par_iter().any(|&label| label != 0);
     let mut all = match baseline {
         Some(Baseline::ByHand) => marked_warnings(analysis, is_restricted),
         Some(_) if has_regions => vec![RunWarning::RegionsAlone],
@@ -123,8 +124,8 @@ fn marked_warnings(analysis: &Analysis, is_restricted: bool) -> Vec<RunWarning> 
 fn region_warnings(analysis: &Analysis, masks: &Masks, is_restricted: bool) -> Vec<RunWarning> {
     let (labels, planar, used) = (&analysis.finals.labels, &analysis.planar, &analysis.used);
     let mut warnings = Vec::new();
-    let lit = (0..labels.len()).filter(|&pixel| !masks.dark(pixel)).count();
-    let assigned = labels.as_slice().iter().filter(|&&label| label != 0).count();
+    let lit = (0..labels.len()).into_par_iter().filter(|&pixel| !masks.dark(pixel)).count();
+    let assigned = labels.as_slice().par_iter().filter(|&&label| label != 0).count();
     if labels.is_empty() || lit == 0 {
         warnings.push(RunWarning::Dark { is_restricted });
     } else if assigned == 0 {

@@ -13,6 +13,7 @@ use crate::params::{
 };
 use crate::photo::Photo;
 use crate::raster::{Mask, UNASSIGNED};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::path::Path;
@@ -74,7 +75,7 @@ impl Report {
         // The paper's light is the average of highlight directions, unless a refinement replaces the average.
         let refine = params.refinements();
         let is_refined = params.method == Method::Refined || refine.robust_illuminant || refine.vote_light;
-        let unassigned = labels.iter().enumerate().filter(is_unassigned).count();
+        let unassigned = labels.par_iter().enumerate().filter(is_unassigned).count();
         Self {
             schema: SCHEMA,
             program: env!("CARGO_PKG_VERSION").to_owned(),
@@ -98,10 +99,15 @@ impl Report {
 
 /// Number of pixels with each reason.
 fn reasons(analysis: &Analysis) -> BTreeMap<String, usize> {
-    let mut counts = [0usize; Reason::ALL.len()];
-    for &reason in analysis.intrinsic.reasons.as_slice() {
+    const CHUNK: usize = 1 << 16;
+    let none = || [0usize; Reason::ALL.len()];
+    let counted = |mut counts: [usize; Reason::ALL.len()], &reason: &Reason| {
         counts[reason as usize] += 1;
-    }
+        counts
+    };
+    let sums = analysis.intrinsic.reasons.as_slice().par_chunks(CHUNK);
+    let sums = sums.map(|chunk| chunk.iter().fold(none(), counted));
+    let counts = sums.reduce(none, |a, b| std::array::from_fn(|reason| a[reason] + b[reason]));
     Reason::ALL.iter().zip(counts).map(|(reason, count)| (reason.name().to_owned(), count)).collect()
 }
 

@@ -69,15 +69,26 @@ impl Masks {
         masks
     }
 
+    /// The marks of `image` under other `limits` that differ in the minimal intensity alone: only the dark pixels are found again.
+    #[must_use]
+    pub fn with_dark_pixels(mut self, image: &LinearImage, limits: &MaskLimits) -> Self {
+        let width = image.width().max(1);
+        self.flags.as_mut_slice().par_chunks_mut(width).enumerate().for_each(|(y, row)| {
+            for (flag, &color) in row.iter_mut().zip(image.pixels.row(y)) {
+                *flag = (*flag & !DARK) | (u8::from(limits.is_dark(color)) * DARK);
+            }
+        });
+        self
+    }
+
     /// Marks the bloomed pixels. Only the neighbors of clipped pixels are visited, because clipped pixels are few.
     fn mark_bloomed(&mut self, limits: &MaskLimits) {
         if !(1..=8).any(|neighbors| limits.is_bloomed(neighbors)) {
             return;
         }
-        for pixel in 0..self.flags.len() {
-            if !self.clipped(pixel) {
-                continue;
-            }
+        let clipped: Vec<usize> =
+            (0..self.flags.len()).into_par_iter().filter(|&pixel| self.clipped(pixel)).collect();
+        for pixel in clipped {
             for near in self.flags.around(pixel) {
                 if !self.distorted(near) && limits.is_bloomed(self.clipped_neighbors(near)) {
                     self.flags[near] |= BLOOMED;
@@ -227,8 +238,8 @@ impl Masks {
     }
 
     /// A mask that is true at the pixels for which `test`, one of the methods above, returns true.
-    pub fn mask(&self, test: impl Fn(&Self, usize) -> bool) -> Mask {
-        let data = (0..self.flags.len()).map(|pixel| test(self, pixel)).collect();
+    pub fn mask(&self, test: impl Fn(&Self, usize) -> bool + Sync) -> Mask {
+        let data = (0..self.flags.len()).into_par_iter().map(|pixel| test(self, pixel)).collect();
         Raster::from_vec(self.flags.width(), self.flags.height(), data).unwrap_or_default()
     }
 }

@@ -33,6 +33,18 @@ impl WorkingPicture {
         let masks = Masks::of_blocks(masks, &means, limits, &blocks);
         Self { blocks, image: Arc::new(means), masks: Arc::new(masks) }
     }
+
+    /// The same working picture with the dark pixels under other `limits`, which differ in the minimal intensity alone. `masks`: those of the
+    /// photograph under the same limits.
+    #[must_use]
+    pub fn with_dark_pixels(self, masks: &Arc<Masks>, limits: &MaskLimits) -> Self {
+        let masks = if self.blocks.side() == 1 {
+            Arc::clone(masks)
+        } else {
+            Arc::new(Arc::unwrap_or_clone(self.masks).with_dark_pixels(&self.image, limits))
+        };
+        Self { masks, ..self }
+    }
 }
 
 /// The mean of each block. A block without a usable value is black and invalid.

@@ -1,5 +1,10 @@
 //! The row-major rectangle of values, and the neighbors of a pixel.
 
+use rayon::prelude::*;
+
+/// Least number of pixels that one task of [`Raster::par_map`] computes.
+const PAR_MAP_PIXELS: usize = 1 << 12;
+
 /// One value per pixel, row-major.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Raster<T> {
@@ -85,6 +90,15 @@ impl<T> Raster<T> {
     /// A raster of the same shape whose values are `f` of the values of this one.
     pub fn map<U>(&self, f: impl FnMut(&T) -> U) -> Raster<U> {
         Raster { width: self.width, height: self.height, data: self.data.iter().map(f).collect() }
+    }
+
+    /// Like [`Self::map`], computed in parallel.
+    pub fn par_map<U: Send>(&self, f: impl Fn(&T) -> U + Sync + Send) -> Raster<U>
+    where
+        T: Sync,
+    {
+        let data = self.data.par_iter().with_min_len(PAR_MAP_PIXELS).map(f).collect();
+        Raster { width: self.width, height: self.height, data }
     }
 
     /// Pixel `index` and its 8 neighbors, row-major.

@@ -1,60 +1,60 @@
 //! Dilation and erosion of masks by squares.
 
 use super::grid::{Mask, Raster};
+use rayon::prelude::*;
+
+/// Least number of rows that one task dilates along the columns; the task reads twice the radius in addition.
+const BAND_ROWS: usize = 64;
 
 /// The mask of every pixel within `radius_px` columns and rows of a set pixel: dilation by a square of side
 /// `2·radius_px + 1`, computed by a pass along the rows and a pass along the columns.
 pub fn dilate(mask: &Mask, radius_px: usize) -> Mask {
     let (width, height) = (mask.width(), mask.height());
     let mut across = Raster::filled(width, height, false);
-    let mut result = across.clone();
-    for y in 0..height {
-        dilate_line(
-            mask.as_slice(),
-            across.as_mut_slice(),
-            Strided { first: y * width, stride: 1, length: width },
-            radius_px,
-        );
-    }
-    for x in 0..width {
-        dilate_line(
-            across.as_slice(),
-            result.as_mut_slice(),
-            Strided { first: x, stride: width, length: height },
-            radius_px,
-        );
-    }
+    let rows = across.as_mut_slice().par_chunks_mut(width.max(1)).enumerate();
+    rows.with_min_len(BAND_ROWS).for_each(|(y, row)| dilate_row(mask.row(y), row, radius_px));
+    let mut result = Raster::filled(width, height, false);
+    let band_rows = BAND_ROWS.max(2 * radius_px);
+    let bands = result.as_mut_slice().par_chunks_mut((width * band_rows).max(1)).enumerate();
+    bands.for_each(|(band, rows)| dilate_columns(&across, rows, band * band_rows, radius_px));
     result
 }
 
 /// The mask of every pixel with nothing but set pixels within `radius_px` columns and rows: erosion by a square of side
 /// `2·radius_px + 1`. What lies outside of the picture counts as set.
 pub fn erode(mask: &Mask, radius_px: usize) -> Mask {
-    dilate(&mask.map(|&is_set| !is_set), radius_px).map(|&is_near_unset| !is_near_unset)
+    dilate(&mask.par_map(|&is_set| !is_set), radius_px).par_map(|&is_near_unset| !is_near_unset)
 }
 
-/// A row or a column of a raster.
-#[derive(Clone, Copy)]
-struct Strided {
-    /// Index of the first value.
-    first: usize,
-    /// Difference between the indices of successive values.
-    stride: usize,
-    /// Number of values.
-    length: usize,
-}
-
-/// Dilates a row or a column of `from` by `radius_px` and sets the result in `to`.
-fn dilate_line(from: &[bool], to: &mut [bool], line: Strided, radius_px: usize) {
-    let Strided { first, stride, length } = line;
-    // The values before this place of the line are final.
+/// Dilates the row `from` by `radius_px` and sets the result in `to`, whose pixels are not set.
+fn dilate_row(from: &[bool], to: &mut [bool], radius_px: usize) {
+    // The values before this place are final.
     let mut reached = 0;
-    for place in (0..length).filter(|place| from[first + place * stride]) {
-        let end = length.min(place + radius_px + 1);
-        for near in reached.max(place.saturating_sub(radius_px))..end {
-            to[first + near * stride] = true;
+    for (place, _) in from.iter().enumerate().filter(|(_, is_set)| **is_set) {
+        let end = from.len().min(place + radius_px + 1);
+        to[reached.max(place.saturating_sub(radius_px)).min(end)..end].fill(true);
+        reached = end;
+    }
+}
+
+/// Dilates the columns of `from` by `radius_px` in the rows from `top` on that `to` holds.
+fn dilate_columns(from: &Mask, to: &mut [bool], top: usize, radius_px: usize) {
+    let (width, height) = (from.width(), from.height());
+    // The number of set pixels of each column within reach of the current row.
+    let mut counts = vec![0u32; width];
+    let add = |counts: &mut [u32], y: usize| {
+        counts.iter_mut().zip(from.row(y)).for_each(|(count, &is_set)| *count += u32::from(is_set));
+    };
+    (top.saturating_sub(radius_px)..height.min(top + radius_px)).for_each(|y| add(&mut counts, y));
+    for (y, row) in (top..).zip(to.chunks_mut(width)) {
+        if y + radius_px < height {
+            add(&mut counts, y + radius_px);
         }
-        reached = reached.max(end);
+        if y > top && y > radius_px {
+            let gone = from.row(y - radius_px - 1);
+            counts.iter_mut().zip(gone).for_each(|(count, &is_set)| *count -= u32::from(is_set));
+        }
+        row.iter_mut().zip(&counts).for_each(|(is_near, &count)| *is_near = count > 0);
     }
 }
 

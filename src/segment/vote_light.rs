@@ -300,7 +300,7 @@ fn normalized([r, g, b, weight]: [f32; 4]) -> [f32; 3] {
 
 /// The quantile [`QUANTILE`] of the finite values; `None` without one.
 fn least_rise(sums: &[f32]) -> Option<f32> {
-    let mut lit: Vec<f32> = sums.iter().copied().filter(|sum| sum.is_finite()).collect();
+    let mut lit: Vec<f32> = sums.par_iter().copied().filter(|sum| sum.is_finite()).collect();
     let rank = (QUANTILE * lit.len() as f64) as usize;
     (rank < lit.len()).then(|| *lit.select_nth_unstable_by(rank, f32::total_cmp).1)
 }
