@@ -58,17 +58,14 @@ pub struct ConfidenceInput<'a> {
 impl ConfidenceInput<'_> {
     /// The confidence of each pixel. `local`: the confidence of the local split, 0 where it found no surface reflection; none where
     /// it did not run.
-    pub fn confidence(&self, local: Option<&Raster<f32>>) -> Raster<f32> {
+    pub fn confidence(&self, local: Option<Raster<f32>>) -> Raster<f32> {
         let width = self.labels.width();
-        let mut confidence = Raster::filled(width, self.labels.height(), 0.0f32);
+        let mut confidence = local.unwrap_or_else(|| Raster::filled(width, self.labels.height(), 0.0));
         confidence.as_mut_slice().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
-            for (x, confidence) in row.iter_mut().enumerate() {
-                let pixel = y * width + x;
-                *confidence = if self.explained_mask[pixel] {
-                    self.by_plane(pixel)
-                } else {
-                    local.map_or(0.0, |local| local[pixel])
-                };
+            let explained =
+                self.explained_mask.row(y).iter().enumerate().filter(|(_, is_explained)| **is_explained);
+            for (x, _) in explained {
+                row[x] = self.by_plane(y * width + x);
             }
         });
         confidence

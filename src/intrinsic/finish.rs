@@ -29,7 +29,7 @@ impl Finish<'_> {
         &self,
         images: Images,
         reports: Vec<RegionReflection>,
-        local: Option<&Raster<f32>>,
+        local: Option<Raster<f32>>,
     ) -> Intrinsic {
         let Images { body, surface, noise, kinds } = images;
         let confidence_input = ConfidenceInput {

@@ -62,7 +62,12 @@ fn split_from(detail: &Detail, working: &WorkingSplit) -> Intrinsic {
         body: &working.intrinsic.body,
         origin: found.origin,
     };
-    let local_confidence = split_locally_at_full_resolution(detail, &local, &explained_mask, &mut images);
+    let is_split = |pixel: usize| {
+        let plan = RegionId::from_label(detail.labels[pixel]).and_then(|region| plans.get(region.index()));
+        plan.is_some_and(|plan| plan.splits_pixels)
+    };
+    let local_confidence =
+        split_locally_at_full_resolution(detail, &local, &explained_mask, is_split, &mut images);
     let reports = RegionReports { input, members: &members, kinds: &images.kinds, fit_sigma: found.sigma }
         .of(&plans, touching);
     let finish = Finish {
@@ -72,31 +77,35 @@ fn split_from(detail: &Detail, working: &WorkingSplit) -> Intrinsic {
         explained_mask: &explained_mask,
         pixel_sigmas: plans.iter().map(|plan| input.fit_sigma(&plan.vectors.matte_mean) as f32).collect(),
     };
-    finish.intrinsic(images, reports, local_confidence.as_ref())
+    finish.intrinsic(images, reports, local_confidence)
 }
 
 /// The pixels that the skewed T of their region explains: those of a region whose model fits, unless the working pixel of the
 /// same region, here or next to here, was taken out; and those of the regions of the second look.
 fn explained_mask(detail: &Detail, working: &WorkingSplit) -> Mask {
-    let [width, height] = detail.blocks.picture();
+    let blocks = &detail.blocks;
+    let [width, height] = blocks.picture();
     let mut mask = Mask::filled(width, height, false);
     mask.as_mut_slice().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
-        for (x, explained) in row.iter_mut().enumerate() {
-            let label = detail.labels[y * width + x];
-            let Some(region) = RegionId::from_label(label) else { continue };
-            let Some(plan) = working.found.plans.get(region.index()) else {
-                *explained = true;
-                continue;
-            };
-            if !plan.model_fits() {
-                continue;
+        let places = (y / blocks.side() * blocks.columns()..).zip(row.chunks_mut(blocks.side()));
+        let labels = detail.labels.row(y).chunks(blocks.side());
+        for ((place, explained), labels) in places.zip(labels) {
+            for (explained, &label) in explained.iter_mut().zip(labels) {
+                *explained = is_explained(detail, working, place, label);
             }
-            let place = detail.blocks.block_of(y * width + x);
-            let working_pixel = working_pixel_of(&detail.working_regions.labels, place, label);
-            *explained = working_pixel.is_some_and(|near| working.found.explained_mask[near]);
         }
     });
     mask
+}
+
+/// Whether the skewed T of the region `label` explains a pixel in the block of the working pixel `place`; see [`explained_mask`].
+#[inline]
+fn is_explained(detail: &Detail, working: &WorkingSplit, place: usize, label: u16) -> bool {
+    let Some(region) = RegionId::from_label(label) else { return false };
+    let Some(plan) = working.found.plans.get(region.index()) else { return true };
+    plan.model_fits()
+        && working_pixel_of(&detail.working_regions.labels, place, label)
+            .is_some_and(|near| working.found.explained_mask[near])
 }
 
 /// The working pixel with a label: the one at `place`, or else the first of the eight around. `working`: the labels of the working

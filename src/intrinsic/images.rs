@@ -40,7 +40,8 @@ struct RestoredPixel {
 }
 
 impl Images {
-    /// Splits the undistorted pixels by the plans of their regions, by [`RegionId::index`], rows in parallel.
+    /// Splits the undistorted pixels by the plans of their regions, by [`RegionId::index`], rows in parallel. Pixels of a region that is
+    /// not split keep their color; only their kinds are found.
     pub(super) fn split_undistorted(input: &AnalysisInput, labels: &LabelMap, plans: &[RegionPlan]) -> Self {
         let (width, height) = (input.pixels.width(), input.pixels.height());
         let mut images = Self {
@@ -63,10 +64,15 @@ impl Images {
             body.copy_from_slice(input.pixels.row(y));
             for (x, &label) in labels.row(y).iter().enumerate() {
                 let Some(region) = RegionId::from_label(label) else { continue };
-                if input.masks.distorted(y * width + x) {
+                let (plan, pixel) = (&plans[region.index()], y * width + x);
+                if !plan.splits_pixels {
+                    kinds[x] = kind_of_unsplit(input, plan, pixel);
                     continue;
                 }
-                let split = plans[region.index()].splitter.split(body[x]);
+                if input.masks.distorted(pixel) {
+                    continue;
+                }
+                let split = plan.splitter.split(body[x]);
                 (body[x], surface[x], noise[x], kinds[x]) =
                     (split.body, split.surface, split.noise, split.kind);
             }
@@ -74,7 +80,8 @@ impl Images {
         images
     }
 
-    /// Restores the distorted pixels from their good bands and from the pixels around them. `origin`: the ambient light, counts.
+    /// Restores the distorted pixels of the regions that are split from their good bands and from the pixels around them. `origin`: the
+    /// ambient light, counts.
     pub(super) fn restore(
         &mut self,
         origin: &[f64; 3],
@@ -87,6 +94,7 @@ impl Images {
         let restored: Vec<Vec<RestoredPixel>> = plans
             .par_iter()
             .enumerate()
+            .filter(|(_, plan)| plan.splits_pixels)
             .map(|(index, plan)| {
                 restored(input, plan, &distorted, members.region(RegionId::from_index(index)))
             })
@@ -153,13 +161,26 @@ fn restored(
         .collect()
 }
 
+/// The kind of a pixel whose region is not split: which line of the region is nearer to an undistorted or believed color.
+fn kind_of_unsplit(input: &AnalysisInput, plan: &RegionPlan, pixel: usize) -> PixelKind {
+    if !input.masks.distorted(pixel) || is_believed(input, plan, pixel) {
+        plan.splitter.kind(input.pixels[pixel])
+    } else {
+        PixelKind::Lost
+    }
+}
+
 /// The split of a pixel beside clipped ones whose color fits the plane of its region as well as that of an undistorted pixel: bloom
 /// has not changed it (refinement `restore_prior`). None for a clipped pixel, where the color does not fit, and in compressed and
 /// demosaiced photographs, where the clipped values are mixed into the pixels beside them.
 fn believed_split(input: &AnalysisInput, plan: &RegionPlan, pixel: usize) -> Option<SplitPixel> {
+    is_believed(input, plan, pixel).then(|| plan.splitter.split(input.pixels[pixel]))
+}
+
+/// Whether a distorted pixel is split as an undistorted one; see [`believed_split`].
+fn is_believed(input: &AnalysisInput, plan: &RegionPlan, pixel: usize) -> bool {
     let is_asked = input.refine.restore_prior && !input.masks.clipped(pixel) && input.mixing_reach_px() == 1;
-    let transform = plan.transform().filter(|_| is_asked)?;
-    let color = input.pixels[pixel];
     let limit_counts = BELIEVED_SIGMAS * plan.fit.sigma_counts as f32;
-    (transform.misfit_counts(color) <= limit_counts).then(|| plan.splitter.split(color))
+    let transform = plan.transform().filter(|_| is_asked);
+    transform.is_some_and(|transform| transform.misfit_counts(input.pixels[pixel]) <= limit_counts)
 }

@@ -39,7 +39,7 @@ impl PixelSplitter {
 
     /// Whether an undistorted pixel of this color is matte or highlight.
     #[inline]
-    fn kind(&self, color: [f32; 3]) -> PixelKind {
+    pub(crate) fn kind(&self, color: [f32; 3]) -> PixelKind {
         if self.highlight_test.as_ref().is_some_and(|test| test.is_highlight(color)) {
             PixelKind::Highlight
         } else {

@@ -33,10 +33,12 @@ use rayon::prelude::*;
 /// Fewest pixels with surface reflection that are judged.
 const LEAST_PIXELS: usize = 20;
 
-/// Measures the evidence of each region that the model fits, and rejects the regions with too little. Returns the observations that
-/// this took, which the local split needs as well; none where no region was tested.
+/// Measures the evidence of each region that the model fits, and rejects the regions with too little. `observed`: the picture with the
+/// bands that were restored by hue, in which highlights are observed. Returns the observations, which the local split needs as well; none
+/// where no region was tested.
 pub(super) fn reject_regions_without_evidence<'a>(
     input: &AnalysisInput,
+    observed: &AnalysisInput,
     lamps: Option<&Lamps>,
     regions: &Regions<'a>,
     images: &Images,
@@ -54,7 +56,7 @@ pub(super) fn reject_regions_without_evidence<'a>(
     if !plans.iter().any(is_tested) {
         return None;
     }
-    let observations = observations(input, lamps, regions);
+    let observations = observations(observed, lamps, regions);
     let tested = plans.par_iter_mut().enumerate().filter(|(_, plan)| is_tested(plan));
     tested.for_each(|(index, plan)| {
         let pixels = regions.members.region(RegionId::from_index(index));

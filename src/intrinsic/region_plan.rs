@@ -31,6 +31,9 @@ pub(super) struct RegionPlan {
     pub(super) verdict: RegionVerdict,
     /// Whether refinement `region_holds` asks if the skewed T explains the region.
     is_judged: bool,
+    /// Whether the region's pixels are split by the vectors: always in the picture to which the vectors were fitted, where the split is
+    /// judged; in the photograph only where the model fits.
+    pub(super) splits_pixels: bool,
     /// The groups of the region's highlights by the body reflection under them; empty without refinement `second_branch`.
     branches: Branches,
     /// Where each highlight line leaves the matte line, counts, the strongest line first. At least one.
@@ -82,6 +85,7 @@ impl RegionPlan {
             fit,
             verdict: first_verdict(input, &fit),
             is_judged: input.refine.region_holds,
+            splits_pixels: true,
             branches: Branches::default(),
             starts: vec![hypothesis.start],
             test_starts: vec![hypothesis.start],
@@ -154,6 +158,7 @@ impl RegionPlan {
     pub(super) fn at_full_resolution(&self, input: &AnalysisInput, place: FittedPlace) -> Self {
         let mut plan = self.clone();
         plan.place = place;
+        plan.splits_pixels = self.model_fits();
         if input.refine.no_negative_surface {
             let noise_line = self.noise_line.map(|line| cylinder(input, &line));
             plan.splitter.rule =

@@ -91,7 +91,9 @@ pub fn judged_plans(input: &AnalysisInput, regions: &FinalRegions) -> JudgedPlan
         let matte = matte_lines(regions);
         let local_regions = Regions { labels: &regions.labels, members: &members, matte: &matte };
         let plans = plans(input, regions, &members);
-        JudgedPlans(split_by_planes(origin, input, plans, &local_regions, lamps.as_ref()).plans)
+        let restored = HueRestored::new(input, origin, &regions.light, lamps.as_ref());
+        let picture = PictureToSplit { origin, input, restored: restored.as_ref(), lamps: lamps.as_ref() };
+        JudgedPlans(split_by_planes(&picture, plans, &local_regions).plans)
     })
 }
 
@@ -147,8 +149,10 @@ fn split_from<R: Recorder>(
     let lamps = Lamps::new(&regions.light, regions.second_lamp_mask.as_ref());
     let matte = matte_lines(regions);
     let local_regions = Regions { labels: &regions.labels, members, matte: &matte };
+    let restored = HueRestored::new(input, origin, &regions.light, lamps.as_ref());
+    let picture = PictureToSplit { origin, input, restored: restored.as_ref(), lamps: lamps.as_ref() };
     let SplitByPlanes { plans, mut images, mut limited, observations } =
-        split_by_planes(origin, input, plans(input, regions, members), &local_regions, lamps.as_ref());
+        split_by_planes(&picture, plans(input, regions, members), &local_regions);
     let mut found = Found {
         origin: *origin,
         sigma: input.sigma(),
@@ -171,15 +175,13 @@ fn split_from<R: Recorder>(
     found.explained_mask = explained_mask(input, regions, members, &model_fits, &images);
     remove_far_colors(input, &regions.labels, plans, &mut found.explained_mask);
     let explained_mask = &found.explained_mask;
-    let hue_restored = HueRestored::new(input, origin, &regions.light, lamps.as_ref());
     let local_input = LocalInput {
         input,
-        restored: hue_restored.as_ref(),
+        restored: restored.as_ref(),
         light: regions.light,
         lamps: lamps.as_ref(),
         explained_mask,
-        // What was observed without the restored bands says nothing of their pixels.
-        observations: observations.filter(|_| hue_restored.is_none()),
+        observations,
         regions: local_regions,
     };
     found.local = split_locally(&local_input, origin, &mut images, recorder);
@@ -197,7 +199,7 @@ fn split_from<R: Recorder>(
         explained_mask: &found.explained_mask,
         pixel_sigmas: plans.iter().map(|plan| plan.fit.sigma_counts as f32).collect(),
     };
-    let local_confidence = found.local.as_ref().map(|local| &local.confidence);
+    let local_confidence = found.local.as_ref().map(|local| local.confidence.clone());
     (finish.intrinsic(images, reports, local_confidence), found)
 }
 
@@ -213,15 +215,26 @@ struct SplitByPlanes<'a> {
     observations: Option<Observations<'a>>,
 }
 
-/// Splits a picture whose colors are measured from `origin`, the ambient light in counts, by the `plans` of its regions, and rejects the
-/// regions that the model does not fit. A run that was stopped restores and rejects nothing.
+/// A picture before its split.
+struct PictureToSplit<'a> {
+    /// The ambient light from which the colors are measured, counts.
+    origin: &'a [f64; 3],
+    /// The picture.
+    input: &'a AnalysisInput<'a>,
+    /// The bands that were restored by hue; none where there are none.
+    restored: Option<&'a HueRestored>,
+    /// The lamps; none where no light is known or a band of the light is zero.
+    lamps: Option<&'a Lamps>,
+}
+
+/// Splits a picture by the `plans` of its regions, and rejects the regions that the model does not fit. A run that was stopped restores and
+/// rejects nothing.
 fn split_by_planes<'a>(
-    origin: &[f64; 3],
-    input: &AnalysisInput,
+    picture: &PictureToSplit,
     mut plans: Vec<RegionPlan>,
     regions: &Regions<'a>,
-    lamps: Option<&Lamps>,
 ) -> SplitByPlanes<'a> {
+    let &PictureToSplit { origin, input, restored, lamps } = picture;
     let mut images = Images::split_undistorted(input, regions.labels, &plans);
     if input.stopped() {
         return SplitByPlanes { plans, images, limited: BordersLimited::default(), observations: None };
@@ -229,7 +242,8 @@ fn split_by_planes<'a>(
     images.restore(origin, input, regions.labels, &plans, regions.members);
     let limited = limit_surface_at_borders(input, regions.labels, &plans, &mut images);
     reject_regions_with_new_edges(input, regions.labels, regions.members, &images, &mut plans);
-    let observations = reject_regions_without_evidence(input, lamps, regions, &images, &mut plans);
+    let observed = restored.map_or(*input, |restored| restored.input(input));
+    let observations = reject_regions_without_evidence(input, &observed, lamps, regions, &images, &mut plans);
     SplitByPlanes { plans, images, limited, observations }
 }
 

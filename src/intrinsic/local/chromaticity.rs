@@ -63,22 +63,22 @@ impl ChromaticityChanges {
         if !input.refine.chromaticity_prior {
             return Self { roi, of: Raster::default() };
         }
-        let directions = map.raster(|index| {
-            if map.usable[index] > 0.0 {
-                direction(input, roi.pixel(index), images)
+        let directions = map.raster_by_place(|column, row| {
+            if map.usable[row * roi.width + column] > 0.0 {
+                direction(input, roi.at(column, row), images)
             } else {
                 Direction::default()
             }
         });
         let weights = distance_weights();
-        let of = map.raster(|index| {
-            let pixel = roi.pixel(index);
+        let of = map.raster_by_place(|column, row| {
+            let (index, pixel) = (row * roi.width + column, roi.at(column, row));
             let (body, surface) = (length(images.body[pixel]), length(images.surface[pixel]));
             let own = directions[index];
             if own.precision <= 0.0 || !unexplained[pixel] || surface <= SURFACE_SHARE.start * body {
                 return [0.0; 3];
             }
-            let unit = most_probable(&directions, index, &weights);
+            let unit = most_probable(&directions, [column, row], &weights);
             let along: f32 = dot(unit, own.unit);
             let share = SURFACE_SHARE.step(surface / body);
             std::array::from_fn(|band| share * (along * unit[band] - own.unit[band]))
@@ -147,11 +147,14 @@ fn distance_weights() -> Vec<([isize; 2], f32)> {
     places.filter_map(weight).collect()
 }
 
-/// The most probable direction of the pixel at `index`, unit.
-fn most_probable(directions: &Raster<Direction>, index: usize, weights: &[([isize; 2], f32)]) -> [f32; 3] {
+/// The most probable direction of the pixel in column `x` and row `y`, unit.
+fn most_probable(
+    directions: &Raster<Direction>,
+    [x, y]: [usize; 2],
+    weights: &[([isize; 2], f32)],
+) -> [f32; 3] {
     let (width, height) = (directions.width(), directions.height());
-    let (x, y) = (index % width, index / width);
-    let own = directions[index];
+    let own = directions[y * width + x];
     let mut sum = own.unit.map(|band| own.precision * band);
     for &([dx, dy], distance_weight) in weights {
         let place = x.checked_add_signed(dx).zip(y.checked_add_signed(dy));

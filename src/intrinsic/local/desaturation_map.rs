@@ -34,26 +34,21 @@ impl<'a> DesaturationMap<'a> {
         roi: Roi,
         regions: &Regions<'a>,
     ) -> Self {
-        let ratios = HueRatios::new(input, limits, lamps);
+        let colors = whitened_colors(input, lamps);
+        let ratios = HueRatios::new(input, limits, &colors);
+        let colors = roi.cropped(colors);
         let region_ratios = RegionRatios::new(input, limits, lamps, regions);
         let mut points = Raster::filled(roi.width, roi.height, Desaturation::default());
-        let mut colors = Raster::filled(roi.width, roi.height, WhitenedColor::default());
-        let rows = (
-            points.as_mut_slice().par_chunks_mut(roi.width),
-            colors.as_mut_slice().par_chunks_mut(roi.width),
-        );
-        rows.into_par_iter().enumerate().for_each(|(row, (points, colors))| {
+        points.as_mut_slice().par_chunks_mut(roi.width).enumerate().for_each(|(row, points)| {
             if input.stopped() {
                 return;
             }
-            for (column, (point, whitened)) in points.iter_mut().zip(colors).enumerate() {
+            for (column, (point, &color)) in points.iter_mut().zip(colors.row(row)).enumerate() {
                 let pixel = roi.at(column, row);
                 if input.masks.dark(pixel) {
                     continue;
                 }
-                let color = lamps.of(pixel).gain.whitened(input.pixels[pixel]);
                 let (x, y) = (roi.left + column, roi.top + row);
-                *whitened = color;
                 *point = match ratios.at(x, y, color.hue_turns) {
                     Some(around) => {
                         let ratios = region_ratios.or_around(pixel, color.hue_turns, around);
@@ -75,6 +70,20 @@ impl<'a> DesaturationMap<'a> {
         Raster::from_vec(self.roi.width, self.roi.height, data).unwrap_or_default()
     }
 
+    /// A raster of the window whose values are `of` the column and the row in the window, computed in parallel.
+    pub fn raster_by_place<T: Send + Clone + Default>(
+        &self,
+        of: impl Fn(usize, usize) -> T + Sync,
+    ) -> Raster<T> {
+        let Roi { width, height, .. } = self.roi;
+        let mut raster = Raster::filled(width, height, T::default());
+        let rows = raster.as_mut_slice().par_chunks_mut(width.max(1)).enumerate();
+        rows.for_each(|(row, values)| {
+            values.iter_mut().enumerate().for_each(|(column, value)| *value = of(column, row));
+        });
+        raster
+    }
+
     /// κ and the median of a/c around the pixel at `index` of the window, or those of its region; `None` where no counted pixel of
     /// the picture has the hue or a neighboring hue.
     pub fn ratios(&self, input: &AnalysisInput, index: usize) -> Option<[f32; 2]> {
@@ -84,4 +93,19 @@ impl<'a> DesaturationMap<'a> {
         let around = self.ratios.at(x, y, hue_turns)?;
         Some(self.region_ratios.or_around(pixel, hue_turns, around))
     }
+}
+
+/// The colors of a picture under white light; zeros for dark pixels.
+fn whitened_colors(input: &AnalysisInput, lamps: &Lamps) -> Raster<WhitenedColor> {
+    let width = input.pixels.width();
+    let mut colors = Raster::filled(width, input.pixels.height(), WhitenedColor::default());
+    colors.as_mut_slice().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
+        for (x, (whitened, &color)) in row.iter_mut().zip(input.pixels.row(y)).enumerate() {
+            let pixel = y * width + x;
+            if !input.masks.dark(pixel) {
+                *whitened = lamps.of(pixel).gain.whitened(color);
+            }
+        }
+    });
+    colors
 }

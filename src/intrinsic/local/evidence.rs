@@ -18,6 +18,7 @@
 use super::desaturation_map::DesaturationMap;
 use crate::raster::{Mask, Raster, blur};
 use crate::trace::{HighlightTerms, LocalLimits, PictureOddsFound};
+use rayon::prelude::*;
 
 /// Width of the Gaussian of a pixel's surroundings, pixels.
 const SURROUNDINGS_PX: f64 = 24.0;
@@ -39,6 +40,8 @@ const LEAST_WEIGHT: f32 = 1e-4;
 const PRIOR: f32 = 0.8;
 /// Share of the variance of the noise that is added to the variances of body and surface reflection.
 const NOISE: f32 = 0.3;
+/// Number of pixels whose probabilities one task sums.
+const CHUNK: usize = 1 << 12;
 /// Number of iterations by which the share of highlights and the odds of the picture are found.
 const ROUNDS: usize = 3;
 /// Least and largest share of highlights in the surface reflection of a picture.
@@ -60,20 +63,16 @@ struct Source<'a> {
 impl Evidence {
     /// The evidence in the window of `map`.
     pub fn new(limits: &LocalLimits, map: &DesaturationMap) -> Self {
-        let roi = map.roi;
         let source = Source { map };
         let (chroma, brightness) = source.against_surroundings(limits.sigma);
         let independence = source.independence(limits.sigma);
         let edges = source.edges();
-        let data = (0..map.points.len())
-            .map(|index| HighlightTerms {
-                chroma: chroma[index],
-                independence: independence[index],
-                brightness: brightness[index],
-                edges: edges[index],
-            })
-            .collect();
-        let terms = Raster::from_vec(roi.width, roi.height, data).unwrap_or_default();
+        let terms = map.raster(|index| HighlightTerms {
+            chroma: chroma[index],
+            independence: independence[index],
+            brightness: brightness[index],
+            edges: edges[index],
+        });
         let log_odds = source.averaged(&terms);
         Self { terms, log_odds }
     }
@@ -88,6 +87,7 @@ impl Evidence {
                 && unexplained[map.roi.pixel(*index)]
         };
         let members: Vec<(f64, f64)> = (0..self.log_odds.len())
+            .into_par_iter()
             .filter(takes_part)
             .map(|index| (f64::from(map.points[index].surface).powi(2), f64::from(self.log_odds[index])))
             .collect();
@@ -95,8 +95,10 @@ impl Evidence {
         let mut log_odds = 0.0f64;
         for _ in 0..if total > 0.0 { ROUNDS } else { 0 } {
             let probable = |&(weight, odds): &(f64, f64)| weight / (1.0 + (-(odds + log_odds)).exp());
-            let share =
-                (members.iter().map(probable).sum::<f64>() / total).clamp(PICTURE_SHARE.0, PICTURE_SHARE.1);
+            let of_chunk = |chunk: &[(f64, f64)]| chunk.iter().map(probable).sum::<f64>();
+            // The sums of chunks of a fixed size do not depend on the number of threads.
+            let sums: Vec<f64> = members.par_chunks(CHUNK).map(of_chunk).collect();
+            let share = (sums.iter().sum::<f64>() / total).clamp(PICTURE_SHARE.0, PICTURE_SHARE.1);
             log_odds = 0.5 * (share / (1.0 - share)).ln();
         }
         PictureOddsFound { pixels: members.len() as u32, log_odds: log_odds as f32 }
@@ -183,8 +185,7 @@ impl Source<'_> {
             let down = [at(x, (y + 1).min(height - 1)), at(x, y.saturating_sub(1))];
             std::array::from_fn(|k| (across[0][k] - across[1][k]).hypot(down[0][k] - down[1][k]) / 2.0)
         };
-        let gradients =
-            blur(&self.map.raster(|index| gradient(index % width, index / width)), GRADIENT_MEAN_PX);
+        let gradients = blur(&self.map.raster_by_place(gradient), GRADIENT_MEAN_PX);
         self.map.raster(|index| {
             let [surface, body] = gradients[index];
             (surface / body.max(LEAST_AMOUNT)).clamp(0.2, 20.0).ln()

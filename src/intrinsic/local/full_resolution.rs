@@ -34,14 +34,15 @@ pub struct LocalWorkingSplit<'a> {
 /// Undoes the split of the pixels of the photograph that their region does not explain, and splits these pixels by what
 /// the working picture found. Returns the confidence of each pixel, 0 for those that were not split locally; `None`
 /// where the working picture was not split locally: then the split by regions is undone all the same. `explained_mask`
-/// has the pixels that the skewed T of their region explains.
+/// has the pixels that the skewed T of their region explains. `is_split`: whether a pixel was split by its region.
 pub fn split_locally_at_full_resolution(
     detail: &Detail,
     working: &LocalWorkingSplit,
     explained_mask: &Mask,
+    is_split: impl Fn(usize) -> bool + Sync,
     images: &mut Images,
 ) -> Option<Raster<f32>> {
-    let unexplained = undo_unexplained(&detail.input, explained_mask, images);
+    let unexplained = undo_unexplained(&detail.input, explained_mask, is_split, images);
     let local = working.local?;
     let (width, height) = (unexplained.width(), unexplained.height());
     let mut confidence = Raster::filled(width, height, 0.0);
@@ -137,7 +138,7 @@ impl<'a> ByWorkingPicture<'a> {
                 };
             }
         });
-        let has_amount = cells.map(|cell| cell.line.is_some_and(|line| !line.is_none()));
+        let has_amount = cells.par_map(|cell| cell.line.is_some_and(|line| !line.is_none()));
         let near_amount = dilate(&has_amount, 1);
         let thresholds = detail.input.clip_thresholds(&working.origin);
         Self { working, local, cells, near_amount, thresholds }

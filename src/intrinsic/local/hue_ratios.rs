@@ -9,7 +9,6 @@
 //! which nearly all are empty in any one cell: only the others take time. Without the local split, printed scenes lose 8 dB
 //! and more; with one κ for all hues of a cell 10 dB.
 
-use super::lamps::Lamps;
 use super::linear_weights::linear_weights;
 use crate::photo::Masks;
 use crate::raster::Raster;
@@ -59,9 +58,9 @@ struct Ratio {
 }
 
 impl HueRatios {
-    /// The ratios of a picture.
-    pub fn new(input: &AnalysisInput, limits: &LocalLimits, lamps: &Lamps) -> Self {
-        let histogram = Histogram::new(input, limits, lamps);
+    /// The ratios of a picture, whose pixels have the `colors` under white light.
+    pub fn new(input: &AnalysisInput, limits: &LocalLimits, colors: &Raster<WhitenedColor>) -> Self {
+        let histogram = Histogram::new(input, limits, colors);
         let picture = histogram.mean();
         histogram.smoothed().ratios(&picture)
     }
@@ -150,7 +149,7 @@ impl HistogramRow {
 
 impl Histogram {
     /// Counts the pixels that have a hue, are not dark, and are neither clipped nor next to a clipped pixel.
-    fn new(input: &AnalysisInput, limits: &LocalLimits, lamps: &Lamps) -> Self {
+    fn new(input: &AnalysisInput, limits: &LocalLimits, colors: &Raster<WhitenedColor>) -> Self {
         let (width, height) = (input.pixels.width(), input.pixels.height());
         let scale = ((width * height) as f64 / MEGAPIXEL).sqrt().max(1.0);
         let cell_px = (CELL_PX * scale).round() as usize;
@@ -158,7 +157,7 @@ impl Histogram {
         // A pixel counts in the two nearest cells of a row, and in the two nearest rows of cells, by its distance.
         let shares = |at: usize, count: usize| linear_weights((at as f32 + 0.5) / cell_px as f32, count);
         let row_count = height.div_ceil(cell_px);
-        let bins = counted_bins(input, limits, lamps);
+        let bins = counted_bins(input, limits, colors);
         let in_columns: Vec<[(usize, f32); 2]> = (0..width).map(|x| shares(x, columns)).collect();
         let counted = |row: usize| {
             let mut counts = HistogramRow::empty(columns);
@@ -259,17 +258,16 @@ impl Histogram {
 const NOT_COUNTED: u16 = u16::MAX;
 
 /// The hue and the bin of ln(a/c) in which each pixel is counted, hue by hue; [`NOT_COUNTED`] for other pixels.
-fn counted_bins(input: &AnalysisInput, limits: &LocalLimits, lamps: &Lamps) -> Raster<u16> {
+fn counted_bins(input: &AnalysisInput, limits: &LocalLimits, colors: &Raster<WhitenedColor>) -> Raster<u16> {
     let (width, height) = (input.pixels.width(), input.pixels.height());
     let near_clipped = NearClipped { masks: input.masks, width, height };
     let mut bins = Raster::filled(width, height, NOT_COUNTED);
     bins.as_mut_slice().par_chunks_mut(width.max(1)).enumerate().for_each(|(y, row)| {
-        for (x, (counted, &color)) in row.iter_mut().zip(input.pixels.row(y)).enumerate() {
+        for (x, (counted, &color)) in row.iter_mut().zip(colors.row(y)).enumerate() {
             let pixel = y * width + x;
             if input.masks.dark(pixel) || near_clipped.at(x, y) {
                 continue;
             }
-            let color = lamps.of(pixel).gain.whitened(color);
             if limits.has_hue(color) {
                 let (hue, bin) = (hue_place(color.hue_turns) as usize, bin_place(color) as usize);
                 *counted = (hue * BINS + bin) as u16;

@@ -99,7 +99,7 @@ pub fn split_locally<R: Recorder>(
     images: &mut Images,
     recorder: &mut R,
 ) -> Option<LocalSplit> {
-    let unexplained = undo_unexplained(local.input, local.explained_mask, images);
+    let unexplained = undo_unexplained(local.input, local.explained_mask, |_| true, images);
     let mut trace_writer = LocalTraceWriter::new(recorder, *origin);
     let found = split_unexplained(local, &unexplained, images, &mut trace_writer);
     trace_writer.finish(unexplained);
@@ -158,8 +158,8 @@ fn split_unexplained<R: Recorder>(
         kept_shares = fade::kept_shares(&repair::unfilled(input, unexplained, &map.roi, &fills));
     }
     let lines = amount_lines(input, map, &amounts, kept_shares.as_ref(), limits.sigma);
-    let amounts = map.raster(|index| {
-        let pixel = map.roi.pixel(index);
+    let amounts = map.raster_by_place(|column, row| {
+        let (index, pixel) = (row * map.roi.width + column, map.roi.at(column, row));
         // A clipped pixel that is not filled has the surface reflection of the pixels around it.
         let line = lines.line(index).filter(|_| unexplained[pixel]);
         line.map_or(0.0, |line| line.amount(map.colors[index].mean))
@@ -203,9 +203,10 @@ fn weights(
     evidence: Option<(&Evidence, PictureOddsFound)>,
     unexplained: &Mask,
 ) -> Raster<f32> {
-    map.raster(|index| {
+    map.raster_by_place(|column, row| {
+        let index = row * map.roi.width + column;
         let found = &map.points[index];
-        if !unexplained[map.roi.pixel(index)] {
+        if !unexplained[map.roi.at(column, row)] {
             return 0.0;
         }
         let ratio = found.body / map.colors[index].chroma.max(f32::MIN_POSITIVE);
@@ -214,9 +215,14 @@ fn weights(
     })
 }
 
-/// Resets pixels that no region explains to body = input, surface = 0, noise = 0. Returns the lit pixels among them, with the
-/// lit pixels that are in no region.
-fn undo_unexplained(input: &AnalysisInput, explained_mask: &Mask, images: &mut Images) -> Mask {
+/// Resets pixels that no region explains to body = input, surface = 0, noise = 0. `is_split`: whether a pixel of a region was split
+/// before. Returns the lit pixels among them, with the lit pixels that are in no region.
+fn undo_unexplained(
+    input: &AnalysisInput,
+    explained_mask: &Mask,
+    is_split: impl Fn(usize) -> bool + Sync,
+    images: &mut Images,
+) -> Mask {
     let (width, height) = (explained_mask.width(), explained_mask.height());
     let mut unexplained = Raster::filled(width, height, false);
     let rows = (
@@ -233,7 +239,7 @@ fn undo_unexplained(input: &AnalysisInput, explained_mask: &Mask, images: &mut I
                 continue;
             }
             unexplained[x] = !input.masks.dark(pixel);
-            if kinds[x] == PixelKind::Unassigned {
+            if kinds[x] == PixelKind::Unassigned || !is_split(pixel) {
                 continue;
             }
             (body[x], surface[x], noise[x]) = (input.pixels[pixel], [0.0; 3], 0.0);
