@@ -3,10 +3,10 @@
 //!
 //! In a photograph that was compressed or demosaiced a plane fits where its pixels lie within 3 σ, and many colors do: gray hair, a
 //! gray wall and skin lie in one plane with black, and the hair is taken for skin under an even highlight. Texture finds no such
-//! region, as the colors do not vary from pixel to pixel. The observations of the local split (`local/evidence`) tell
-//! highlights from white print without any plane. Their mean probability of a highlight, weighted by the square of the surface
-//! reflection of the plane, is near 1 on highlights. Where the mean is below .3 the model does not fit the region, and the local
-//! split takes its pixels.
+//! region, as the colors do not vary from pixel to pixel. The observations of the local split (`local/evidence`) tell highlights
+//! from white print without any plane. They are made in the picture with the bands that were restored by hue. Their mean
+//! probability of a highlight, weighted by the square of the surface reflection of the plane, is near 1 on highlights. Where the
+//! mean is below .3 the model does not fit the region, and the local split takes its pixels.
 //!
 //! Pictures without such errors are not tested: there a fit within 1.5 σ is the better evidence, and metal would lose its plane. The
 //! exceptions are regions with a doubtful plane, which fit where the mean probability is at least .8. One kind has a small misfit: the

@@ -265,6 +265,15 @@ mod tests {
     }
 
     #[test]
+    fn dark_pixels_under_another_limit_are_those_of_new_masks() {
+        let image = image(&[10.0, 20.0, 250.0, 60.0, f32::NAN, 30.0], 3);
+        let darker = MaskLimits { min_intensity: 40.0, ..limits(1) };
+        let masks = Masks::new(&image, &limits(1));
+        assert_ne!(masks, Masks::new(&image, &darker));
+        assert_eq!(masks.with_dark_pixels(&image, &darker), Masks::new(&image, &darker));
+    }
+
+    #[test]
     fn outside_the_area_nothing_is_lit_but_clipped_pixels_bloom_into_it() {
         let area = Mask::from_vec(4, 1, vec![false, true, true, true]).unwrap();
         let masks = Masks::new(&image(&[255.0, 99.0, 99.0, 5.0], 4), &limits(1)).within(&area);

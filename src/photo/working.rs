@@ -164,6 +164,21 @@ mod tests {
     }
 
     #[test]
+    fn dark_pixels_under_another_limit_are_those_of_a_new_working_picture() {
+        let colors = [10.0, 30.0, 250.0, 50.0, 20.0, 20.0, 60.0, 80.0].map(|v| [v, v / 2.0, v / 4.0]);
+        let pixels = Raster::from_vec(4, 2, colors.to_vec()).unwrap();
+        let image = Arc::new(LinearImage::new(pixels, Some(255.0)));
+        let darker = MaskLimits { min_intensity: 40.0, ..LIMITS };
+        let [before, after] = [LIMITS, darker].map(|limits| Arc::new(Masks::new(&image, &limits)));
+        for factor in [1, 2] {
+            let made = WorkingPicture::new(&image, &after, &darker, factor);
+            let changed =
+                WorkingPicture::new(&image, &before, &LIMITS, factor).with_dark_pixels(&after, &darker);
+            assert_eq!((changed.masks, changed.image), (made.masks, made.image), "{factor}");
+        }
+    }
+
+    #[test]
     fn blocks_of_one_pixel_are_the_photograph() {
         let picture = working(&[10.0, 250.0, 60.0], 3, 1, None);
         assert_eq!(picture.image.pixels[1][0], 250.0);
