@@ -7,6 +7,7 @@ mod navigation;
 mod notes;
 mod other_size;
 mod overlay;
+mod paint_request;
 mod painting;
 mod readout;
 mod texts;
@@ -33,8 +34,9 @@ use egui::{
 pub use geometry::Placement;
 use navigation::{navigate, stepped};
 use notes::DismissedNotes;
+use paint_request::PaintRequest;
 use texts::show_texts;
-use textures::{PaintRequest, Slot, TextureCache};
+use textures::{Slot, TextureCache};
 use tools::{PointerContext, ToolState};
 
 /// Height without the toolbar below which the panel is low: readout and verdict have a line each, and the picture the rest; points.

@@ -1,7 +1,8 @@
 //! What is painted in a view: layers or the instant at the debugger's cursor, what lies over them, and texts.
 
+use super::paint_request::PaintRequest;
 use super::texts::show_texts;
-use super::textures::{LARGE_PX, PaintRequest, Slot};
+use super::textures::{LARGE_PX, Slot};
 use super::tools::PointerContext;
 use super::{ImagePanel, cursor, other_size, overlay};
 use crate::app::State;

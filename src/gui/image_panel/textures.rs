@@ -4,17 +4,13 @@
 mod tests;
 
 use super::geometry::{Placement, level_for};
+use super::paint_request::{PaintRequest, TextureKey};
 use super::tiles::{TILE, Tile, copies_of_marks, texture_options};
-use crate::app::State;
 use crate::gui::task::Task;
-use crate::raster::{Mask, Raster};
-use crate::view::{
-    Against, Elsewhere, Fill, ImageSettings, Instant, Item, Layer, LayerNeed, Look, NamedMarks, Picture,
-    ResultSnapshot, Selection, marks, paint_against, paint_instant, pyramid,
-};
+use crate::raster::Raster;
+use crate::view::pyramid;
 use egui::{Color32, Context, Mesh, Painter, Rect, Shape, TextureHandle};
 use std::collections::HashMap;
-use std::sync::{Arc, Weak};
 use std::time::Duration;
 
 /// Number of pixels above which a picture is painted on a thread, so that no frame waits for the picture.
@@ -37,195 +33,6 @@ pub enum Slot {
     Instant,
     /// The outline of the selected region in a preview.
     PreviewOutline,
-}
-
-/// A picture to be painted.
-#[derive(Clone)]
-pub struct PaintRequest {
-    picture: Arc<Picture>,
-    shown: Option<Arc<ResultSnapshot>>,
-    pinned: Option<Arc<ResultSnapshot>>,
-    elsewhere: Option<Arc<Elsewhere>>,
-    subject: Subject,
-    /// Side of a texel of the painted picture, pixels of the photograph.
-    texel_px: usize,
-}
-
-#[derive(Clone)]
-enum Subject {
-    Layer(Layer, Look),
-    Marks(Selection, Option<Item>),
-    Instant(Arc<Instant>, Look),
-}
-
-impl PaintRequest {
-    /// The request of a layer. Settings that do not change the picture are left out, so that the picture is not painted again.
-    /// Before the first result and its preview, the photograph stands for the layers of a result.
-    pub fn layer(state: &State, layer: Layer, settings: &ImageSettings) -> Option<Self> {
-        let has_result = state.shown().is_some() || state.shown_preview().is_some();
-        let layer = if layer.needs_result() && !has_result { Layer::Input } else { layer };
-        let picture = Arc::clone(state.picture.as_ref()?);
-        let preview = state.shown_preview().filter(|_| layer.needs_result() && layer.need().is_none());
-        let selected = preview.map_or_else(|| state.selected_region(), |(_, selected)| selected);
-        let mut look = settings.look(selected.filter(|_| layer.dims_regions()));
-        if !layer.is_overlay() {
-            (look.fill, look.opacity) = (Fill::Fill, 1.0);
-        }
-        let newest = || state.shown().filter(|_| layer.needs_result());
-        let shown = preview.map_or_else(newest, |(preview, _)| Some(&preview.shown)).cloned();
-        let texel_px = preview.map_or(1, |(preview, _)| preview.blocks.side());
-        let pinned = state.pinned.as_ref().filter(|_| layer.need() == Some(LayerNeed::Pinned)).cloned();
-        let is_of_elsewhere = matches!(layer.need(), Some(LayerNeed::Elsewhere(_)));
-        let elsewhere = state.elsewhere.as_ref().filter(|_| is_of_elsewhere).cloned();
-        Some(Self { picture, shown, pinned, elsewhere, subject: Subject::Layer(layer, look), texel_px })
-    }
-
-    /// The request of a layer of the photograph that the second view shows for comparison; none where no photograph is compared.
-    pub fn compared_layer(state: &State, layer: Layer, settings: &ImageSettings) -> Option<Self> {
-        let other = state.compared_photograph()?;
-        let has_result = other.newest.is_some();
-        let layer = if layer.need().is_some() || (layer.needs_result() && !has_result) {
-            Layer::Input
-        } else {
-            layer
-        };
-        Some(Self {
-            picture: Arc::clone(&other.picture),
-            shown: other.newest.clone(),
-            pinned: None,
-            elsewhere: None,
-            subject: Subject::Layer(layer, settings.look(None)),
-            texel_px: 1,
-        })
-    }
-
-    /// The request of the marks: marked, selected and hovered pixels; none where none of these is larger than a pixel.
-    pub fn marks(state: &State) -> Option<Self> {
-        // Regions and windows of the result do not exist yet at the debugger's cursor, and no more in the preview of the next result.
-        let has_regions = state.followed().is_none() && state.shown_preview().is_none();
-        let large = |item: &Item| match item {
-            Item::Pixel(_) => false,
-            Item::Region(_) | Item::Window(_) => has_regions,
-            Item::Bin(_) => true,
-        };
-        let hover = state.hover.filter(large);
-        let mut selection = state.document.selection.clone();
-        selection.item = selection.item.filter(large);
-        if selection.is_empty() && selection.named.marks.is_empty() && hover.is_none() {
-            return None;
-        }
-        let picture = Arc::clone(state.picture.as_ref()?);
-        let shown = state.shown().cloned();
-        let subject = Subject::Marks(selection, hover);
-        Some(Self { picture, shown, pinned: None, elsewhere: None, subject, texel_px: 1 })
-    }
-
-    /// The request of the outline of the selected region in the preview of the next result; none where there is no such region.
-    pub fn preview_outline(state: &State) -> Option<Self> {
-        let (preview, region) = state.outlined_in_preview()?;
-        let selection = Selection {
-            item: Some(Item::Region(region)),
-            marked: None,
-            // Named marks have pixels of the photograph and are not painted in working pixels.
-            named: Arc::clone(&state.document.selection.named),
-        };
-        Some(Self {
-            picture: Arc::clone(state.picture.as_ref()?),
-            shown: Some(Arc::clone(&preview.shown)),
-            pinned: None,
-            elsewhere: None,
-            subject: Subject::Marks(selection, None),
-            texel_px: preview.blocks.side(),
-        })
-    }
-
-    /// The request of the instant at the cursor.
-    pub fn instant(state: &State, instant: &Arc<Instant>) -> Option<Self> {
-        let picture = Arc::clone(state.picture.as_ref()?);
-        let look = Look { exposure_ev: 0.0, gamma: 1.0, ..state.view.image.look(None) };
-        Some(Self {
-            picture,
-            shown: None,
-            pinned: None,
-            elsewhere: None,
-            subject: Subject::Instant(Arc::clone(instant), look),
-            texel_px: 1,
-        })
-    }
-
-    fn paint(&self) -> Raster<[u8; 4]> {
-        let (shown, pinned) = (self.shown.as_deref(), self.pinned.as_deref());
-        match &self.subject {
-            Subject::Layer(layer, look) => {
-                let against = Against { pinned, elsewhere: self.elsewhere.as_deref() };
-                paint_against(*layer, &self.picture, shown, against, look)
-            }
-            Subject::Marks(selection, hover) => {
-                let painted_marks = marks(&self.picture, shown, selection, *hover);
-                // Where nothing is marked, one transparent texel.
-                painted_marks.unwrap_or_else(|| Raster::filled(1, 1, [0; 4]))
-            }
-            Subject::Instant(instant, look) => {
-                let (width, height) = self.picture.size();
-                paint_instant(instant, width, height, look)
-            }
-        }
-    }
-
-    fn key(&self) -> TextureKey {
-        let downgraded =
-            |shown: &Option<Arc<ResultSnapshot>>| shown.as_ref().map(Arc::downgrade).unwrap_or_default();
-        let subject = match &self.subject {
-            Subject::Layer(layer, look) => SubjectKey::Layer(*layer, *look),
-            Subject::Marks(selection, hover) => {
-                let marked = selection.marked.as_ref().map(Arc::downgrade).unwrap_or_default();
-                SubjectKey::Marks(selection.item, marked, Arc::downgrade(&selection.named), *hover)
-            }
-            Subject::Instant(instant, look) => SubjectKey::Instant(Arc::downgrade(instant), *look),
-        };
-        TextureKey {
-            picture: Arc::downgrade(&self.picture),
-            shown: downgraded(&self.shown),
-            pinned: downgraded(&self.pinned),
-            elsewhere: self.elsewhere.as_ref().map(Arc::downgrade).unwrap_or_default(),
-            subject,
-        }
-    }
-}
-
-/// The identity of a texture. Weak references do not keep results alive.
-#[derive(Clone)]
-struct TextureKey {
-    picture: Weak<Picture>,
-    shown: Weak<ResultSnapshot>,
-    pinned: Weak<ResultSnapshot>,
-    elsewhere: Weak<Elsewhere>,
-    subject: SubjectKey,
-}
-
-#[derive(Clone)]
-enum SubjectKey {
-    Layer(Layer, Look),
-    Marks(Option<Item>, Weak<Mask>, Weak<NamedMarks>, Option<Item>),
-    Instant(Weak<Instant>, Look),
-}
-
-impl PartialEq for TextureKey {
-    fn eq(&self, other: &Self) -> bool {
-        let subject = match (&self.subject, &other.subject) {
-            (SubjectKey::Layer(a, b), SubjectKey::Layer(c, d)) => (a, b) == (c, d),
-            (SubjectKey::Marks(a, b, c, d), SubjectKey::Marks(e, f, g, h)) => {
-                (a, d) == (e, h) && Weak::ptr_eq(b, f) && Weak::ptr_eq(c, g)
-            }
-            (SubjectKey::Instant(a, b), SubjectKey::Instant(c, d)) => b == d && Weak::ptr_eq(a, c),
-            _ => false,
-        };
-        subject
-            && Weak::ptr_eq(&self.picture, &other.picture)
-            && Weak::ptr_eq(&self.shown, &other.shown)
-            && Weak::ptr_eq(&self.pinned, &other.pinned)
-            && Weak::ptr_eq(&self.elsewhere, &other.elsewhere)
-    }
 }
 
 /// The textures that are kept.
@@ -268,8 +75,7 @@ impl TextureCache {
         self.uses += 1;
         let key = request.key();
         if !self.textures.iter().any(|texture| texture.key == key) {
-            let texels = request.picture.photo.image.pixels.len() / request.texel_px.pow(2);
-            if texels <= LARGE_PX {
+            if request.texels() <= LARGE_PX {
                 let texture = LayerTexture::painted(request);
                 self.add_texture(texture);
             } else if self.painting.is_none() && self.failed_key.as_ref() != Some(&key) {
@@ -283,9 +89,7 @@ impl TextureCache {
             self.painted_key.take_if(|painted| *painted == key);
             *shown_last = Some(key);
         }
-        let wanted = shown_last
-            .clone()
-            .filter(|shown_last| Weak::ptr_eq(&shown_last.picture, &Arc::downgrade(&request.picture)))?;
+        let wanted = shown_last.clone().filter(|shown_last| shown_last.is_of_photograph(request))?;
         self.drop_oldest();
         let texture = self.textures.iter_mut().find(|texture| texture.key == wanted)?;
         texture.last_use = self.uses;
@@ -308,9 +112,8 @@ impl TextureCache {
 
     /// Keeps a new texture. One of an instant reuses the tiles of the instant before: they change many times a second.
     fn add_texture(&mut self, mut texture: LayerTexture) {
-        let instant = |texture: &LayerTexture| matches!(texture.key.subject, SubjectKey::Instant(..));
-        if instant(&texture) {
-            for old in self.textures.extract_if(.., |old| instant(old)) {
+        if texture.key.is_of_instant() {
+            for old in self.textures.extract_if(.., |old| old.key.is_of_instant()) {
                 texture.spare.extend(old.spare);
                 texture.spare.extend(old.tiles);
             }
@@ -341,7 +144,7 @@ impl TextureCache {
         let in_use = |texture: &LayerTexture| {
             shown_last.iter().chain([painted]).flatten().any(|key| *key == texture.key)
         };
-        self.textures.retain(|texture| in_use(texture) || !texture.is_outdated());
+        self.textures.retain(|texture| in_use(texture) || !texture.key.is_outdated());
         loop {
             let pixels: usize = self.textures.iter().map(|texture| texture.levels[0].len()).sum();
             if self.textures.len() <= MOST_TEXTURES && pixels <= self.most_px {
@@ -370,19 +173,12 @@ impl LayerTexture {
     fn painted(request: &PaintRequest) -> Self {
         Self {
             key: request.key(),
-            texel_px: request.texel_px,
+            texel_px: request.texel_px(),
             levels: vec![request.paint()],
             tiles: HashMap::new(),
             spare: HashMap::new(),
             last_use: 0,
         }
-    }
-
-    /// Whether the photograph or a result of the texture is no longer in memory.
-    fn is_outdated(&self) -> bool {
-        let is_gone =
-            |shown: &Weak<ResultSnapshot>| shown.strong_count() == 0 && !Weak::ptr_eq(shown, &Weak::new());
-        self.key.picture.strong_count() == 0 || is_gone(&self.key.shown) || is_gone(&self.key.pinned)
     }
 
     /// The color shown for a pixel; transparent where a texel has several pixels.
@@ -396,9 +192,10 @@ impl LayerTexture {
     /// Makes the smaller copies, unless they are there.
     fn make_copies(&mut self) {
         if self.levels.len() == 1 {
-            let copies = match self.key.subject {
-                SubjectKey::Layer(..) | SubjectKey::Instant(..) => pyramid(&self.levels[0]),
-                SubjectKey::Marks(..) => copies_of_marks(&self.levels[0]),
+            let copies = if self.key.is_of_marks() {
+                copies_of_marks(&self.levels[0])
+            } else {
+                pyramid(&self.levels[0])
             };
             self.levels.extend(copies);
         }
@@ -407,7 +204,7 @@ impl LayerTexture {
     /// Draws the visible part, multiplied by `tint`.
     pub fn draw(&mut self, painter: &Painter, place: &Placement, tint: Color32) {
         let mut scale = place.zoom * painter.ctx().pixels_per_point() * self.texel_px as f32;
-        if let SubjectKey::Marks(..) = self.key.subject {
+        if self.key.is_of_marks() {
             // A thin line must not fall between screen pixels, nor become a thick one: about one texel each.
             scale *= 0.7;
         }

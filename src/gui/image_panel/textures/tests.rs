@@ -1,7 +1,8 @@
 //! Tests of the textures that are kept.
 
-use super::{LayerTexture, PaintRequest, Slot, TextureCache};
+use super::{LayerTexture, Slot, TextureCache};
 use crate::app::State;
+use crate::gui::image_panel::paint_request::PaintRequest;
 use crate::gui::task::Task;
 use crate::raster::RegionId;
 use crate::view::testing::tiny;
@@ -23,7 +24,7 @@ fn a_texture_painted_on_a_thread_stays_until_its_slot_is_asked_even_beyond_the_l
         PaintRequest::marks(&state).unwrap()
     };
     let (before, after) = (marks_of(0), marks_of(1));
-    let pixels = before.picture.photo.image.pixels.len();
+    let pixels = before.texels();
     // Room for both layers and the marks, as for a photograph of 12 megapixels, and not for the next marks beside them.
     let mut cache = TextureCache { most_px: 3 * pixels, ..TextureCache::default() };
     let slots = [Slot::Layer, Slot::SecondLayer];
