@@ -8,7 +8,7 @@ use crate::photo::ReadOptions;
 use crate::raster::Mask;
 use crate::truth::sample::SampleSet;
 use crate::view::{
-    CubeSettings, ElsewhereKind, ElsewherePaths, GeometrySettings, ImageSettings, Item, Origin,
+    CubeSettings, ElsewhereKind, ElsewherePaths, GeometrySettings, ImageSettings, Item, Origin, Picture,
     PlaneSettings, ProfileLine, Theme,
 };
 use std::path::PathBuf;
@@ -144,8 +144,8 @@ pub enum JobCommand {
     OpenElsewhere(ElsewhereKind, PathBuf),
     /// Show another open photograph.
     Switch(Switching),
-    /// Close the photograph that is shown, and show the next one.
-    ClosePhotograph,
+    /// Close an open photograph. In place of the photograph that is shown, the next one is shown; the only one stays.
+    ClosePhotograph(Arc<Picture>),
     /// Read the open photograph again with these options.
     ReadAs(ReadOptions),
     /// Read a workspace file, then its photograph, and restore the rest of the workspace.

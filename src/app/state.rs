@@ -287,6 +287,17 @@ impl State {
         self.picture.is_some() && self.document.holds_other_work(&self.saved)
     }
 
+    /// Whether a photograph is the one that is shown.
+    pub fn shows_photograph(&self, picture: &Arc<Picture>) -> bool {
+        self.picture.as_ref().is_some_and(|shown| Arc::ptr_eq(shown, picture))
+    }
+
+    /// Whether the work on an open photograph, which may not be the one that is shown, is in no workspace.
+    pub fn is_photograph_unsaved(&self, picture: &Arc<Picture>) -> bool {
+        let is_other = |other: &OpenPhotograph| Arc::ptr_eq(&other.picture, picture) && other.is_unsaved();
+        self.shows_photograph(picture) && self.is_unsaved() || self.others.iter().any(is_other)
+    }
+
     /// The names of the open photographs whose parameters, marks or area are not saved, that of the photograph shown first.
     pub fn unsaved_names(&self) -> Vec<String> {
         let shown = self.picture.iter().filter(|_| self.is_unsaved());

@@ -4,17 +4,29 @@ use super::PanelContext;
 use super::action::Action;
 use super::theme::{BODY_PT, heading_font};
 use crate::app::{JobCommand, State};
+use crate::view::Picture;
 use egui::{Id, Label, Modal, RichText, Ui, ViewportCommand};
+use std::sync::Arc;
 
 /// What is to be closed.
-#[derive(Clone, Copy)]
+#[derive(Clone)]
 enum Closed {
     Window,
-    Photograph,
+    /// The photograph that was shown when a person wanted to close it. Another one may be shown meanwhile.
+    Photograph(Arc<Picture>),
+}
+
+impl Closed {
+    /// Whether there is work on the photograph to be closed, or with the window on the photograph that is shown, that is not saved.
+    fn is_unsaved(&self, state: &State) -> bool {
+        match self {
+            Self::Window => state.is_unsaved(),
+            Self::Photograph(picture) => state.is_photograph_unsaved(picture),
+        }
+    }
 }
 
 /// What is closed once the workspace is saved.
-#[derive(Clone, Copy)]
 struct Saving {
     closed: Closed,
     /// Number of frames in which a dialog for the file or the writing may still begin.
@@ -54,19 +66,20 @@ impl Closing {
 
     /// Closes the photograph that is shown, or asks where the work on it is not saved.
     pub fn close_photograph(&mut self, cx: &mut PanelContext) {
+        let Some(picture) = cx.state.picture.clone() else { return };
         if cx.state.is_unsaved() && !cx.state.others.is_empty() {
-            self.asked = Some(Closed::Photograph);
+            self.asked = Some(Closed::Photograph(picture));
         } else {
-            cx.send(JobCommand::ClosePhotograph);
+            cx.send(JobCommand::ClosePhotograph(picture));
         }
     }
 
     /// Shows the question, where it is asked.
     pub fn show(&mut self, ui: &Ui, cx: &mut PanelContext) {
-        let Some(closed) = self.asked else { return };
-        let names = match closed {
+        let Some(closed) = self.asked.clone() else { return };
+        let names = match &closed {
             Closed::Window => cx.state.unsaved_names().join(", "),
-            Closed::Photograph => cx.state.picture.iter().map(|picture| picture.origin.name()).collect(),
+            Closed::Photograph(picture) => picture.origin.name(),
         };
         let modal = Modal::new(Id::unique("close without saving")).show(ui.ctx(), |ui| {
             ui.set_max_width(420.0);
@@ -75,13 +88,15 @@ impl Closing {
             ui.add(Label::new(RichText::new(text).color(cx.palette.secondary)).wrap());
             ui.add_space(6.0);
             ui.horizontal(|ui| {
-                if cx.state.is_unsaved() && ui.button("Save workspace\u{2026}").clicked() {
+                if closed.is_unsaved(cx.state) && ui.button("Save workspace\u{2026}").clicked() {
                     self.asked = None;
-                    self.saving = Some(Saving { closed, frames_left: FRAMES_TO_BEGIN });
+                    self.saving = Some(Saving { closed: closed.clone(), frames_left: FRAMES_TO_BEGIN });
                     cx.act(Action::Save);
                 }
                 if ui.button("Close without saving").clicked() {
-                    self.close(ui, cx, closed);
+                    self.asked = None;
+                    self.is_confirmed = matches!(closed, Closed::Window);
+                    close(ui, cx, closed);
                 }
                 if ui.button("Cancel").clicked() {
                     self.asked = None;
@@ -96,31 +111,22 @@ impl Closing {
     /// Closes what was to be saved before, once it is saved. `is_saving`: whether a dialog is open or a file is being written. A dialog that was
     /// canceled, and a file that could not be written, close nothing.
     pub fn close_when_saved(&mut self, ui: &Ui, cx: &mut PanelContext, is_saving: bool) {
-        let Some(Saving { closed, frames_left }) = self.saving else { return };
+        let Some(Saving { closed, frames_left }) = self.saving.take() else { return };
         if is_saving {
             self.saving = Some(Saving { closed, frames_left: 1 });
-        } else if cx.state.is_unsaved() {
+        } else if closed.is_unsaved(cx.state) {
             self.saving = frames_left.checked_sub(1).map(|frames_left| Saving { closed, frames_left });
             ui.ctx().request_repaint();
         } else {
-            self.saving = None;
-            match closed {
-                // The window closes at once, unless the work on another photograph is not saved.
-                Closed::Window => ui.ctx().send_viewport_cmd(ViewportCommand::Close),
-                Closed::Photograph => cx.send(JobCommand::ClosePhotograph),
-            }
+            close(ui, cx, closed);
         }
     }
+}
 
-    /// Closes what was asked about.
-    fn close(&mut self, ui: &Ui, cx: &mut PanelContext, closed: Closed) {
-        self.asked = None;
-        match closed {
-            Closed::Window => {
-                self.is_confirmed = true;
-                ui.ctx().send_viewport_cmd(ViewportCommand::Close);
-            }
-            Closed::Photograph => cx.send(JobCommand::ClosePhotograph),
-        }
+/// Closes a photograph, or the window: at once, unless the work on another photograph is not saved.
+fn close(ui: &Ui, cx: &mut PanelContext, closed: Closed) {
+    match closed {
+        Closed::Window => ui.ctx().send_viewport_cmd(ViewportCommand::Close),
+        Closed::Photograph(picture) => cx.send(JobCommand::ClosePhotograph(picture)),
     }
 }

@@ -35,7 +35,7 @@ pub(super) fn reduce(state: &mut State, command: JobCommand) -> Vec<Effect> {
         }
         JobCommand::OpenElsewhere(kind, path) => vec![Effect::ReadElsewhere { kind, path, shows: true }],
         JobCommand::Switch(switching) => photographs::switch(state, switching),
-        JobCommand::ClosePhotograph => photographs::close(state),
+        JobCommand::ClosePhotograph(picture) => photographs::close(state, &picture),
         JobCommand::ReadAs(options) => {
             state.restoring = None;
             state.picture.iter().map(|picture| Effect::Read(picture.origin.clone(), options)).collect()

@@ -4,7 +4,7 @@ use super::edits::{analyze, forget_defaults};
 use crate::app::photographs::MOST_OTHERS;
 use crate::app::report::WrittenWorkspace;
 use crate::app::{Effect, OpenPhotograph, Severity, State, Switching};
-use crate::view::Arrangement;
+use crate::view::{Arrangement, Picture};
 use std::sync::Arc;
 
 /// Puts the photograph that is shown to the end of the others, before another one is shown. Of too many, the one without unsaved work that
@@ -37,17 +37,22 @@ pub(super) fn switch(state: &mut State, switching: Switching) -> Vec<Effect> {
     circle.pop().map_or_else(Vec::new, |next| show(state, next))
 }
 
-/// Closes the photograph that is shown, and shows the next one; nothing where it is the only one.
-pub(super) fn close(state: &mut State) -> Vec<Effect> {
-    if state.others.is_empty() {
-        return Vec::new();
-    }
-    take_shown(state);
-    let next = state.others.remove(0);
+/// Closes an open photograph. In place of the photograph that is shown, the next one is shown; the only one stays.
+pub(super) fn close(state: &mut State, picture: &Arc<Picture>) -> Vec<Effect> {
+    let next = if state.shows_photograph(picture) {
+        if state.others.is_empty() {
+            return Vec::new();
+        }
+        take_shown(state);
+        Some(state.others.remove(0))
+    } else {
+        state.others.retain(|other| !Arc::ptr_eq(&other.picture, picture));
+        None
+    };
     if state.others.is_empty() {
         compare(state, false);
     }
-    show(state, next)
+    next.map_or_else(Vec::new, |next| show(state, next))
 }
 
 /// Begins or ends the comparison with the next photograph. At its end the views are as before, but for what was chosen meanwhile.
@@ -81,7 +86,7 @@ pub(super) fn compare(state: &mut State, compares: bool) {
 /// Takes a written workspace for what is saved of its photograph, which may not be the one that is shown any more.
 pub(super) fn take_written(state: &mut State, written: WrittenWorkspace) {
     let WrittenWorkspace { path, picture, document } = written;
-    if state.picture.as_ref().is_some_and(|shown| Arc::ptr_eq(shown, &picture)) {
+    if state.shows_photograph(&picture) {
         (state.workspace_path, state.saved) = (Some(path), document);
     } else if let Some(other) = state.others.iter_mut().find(|other| Arc::ptr_eq(&other.picture, &picture)) {
         (other.workspace_path, other.saved) = (Some(path), document);

@@ -3,7 +3,7 @@
 use crate::window::{
     Window, answer, apply, click, open_sample, press, region, says, state, tiny_window, undo,
 };
-use dichroscope::app::{Edit, JobCommand};
+use dichroscope::app::{Edit, JobCommand, Switching};
 use dichroscope::params::{Parameter, Setting};
 use dichroscope::truth::sample;
 use egui::accesskit::Role;
@@ -106,4 +106,33 @@ fn a_photograph_is_closed_once_its_workspace_is_saved() {
     apply(&mut window, Edit::SetParameter(Parameter::SliceWidth, Setting::Value(5.0), None));
     save_and_close(&mut window);
     assert_eq!(state(&window).others.len(), 0, "{:?}", state(&window).notices);
+}
+
+#[test]
+fn the_photograph_that_was_asked_about_is_closed_and_no_other() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut window = tiny_window();
+    open_sample(&mut window, sample::NAME);
+    change(&mut window);
+    let shown = |window: &Window| state(window).picture.as_ref().map(|picture| picture.origin.name());
+    let ask_and_switch = |window: &mut Window| {
+        press(window, Modifiers::COMMAND, Key::W);
+        click(window, Role::Button, "Save workspace");
+        window.run_steps(8);
+        apply(window, JobCommand::Switch(Switching::Next));
+    };
+    ask_and_switch(&mut window);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    window.run_steps(8);
+    assert_eq!(shown(&window).as_deref(), Some("camera8.png"), "the photograph without changes stays");
+    assert_eq!(
+        state(&window).others.len(),
+        1,
+        "the photograph with changes, whose workspace was not saved, stays"
+    );
+    apply(&mut window, JobCommand::Switch(Switching::Next));
+    ask_and_switch(&mut window);
+    answer(&mut window, &folder.path().join("work.dichroscope"));
+    window.run_steps(8);
+    assert_eq!(state(&window).others.len(), 1, "the workspace of another photograph was saved");
 }
