@@ -18,7 +18,7 @@ use anchor::{Anchor, best_overlaps};
 
 use crate::raster::HypothesisId;
 use crate::segment::FinalRegions;
-use crate::trace::{Replay, Trace};
+use crate::trace::{Replay, Step, Subject, Trace};
 use crate::view::RegionNames;
 use serde::{Deserialize, Serialize};
 use std::ops::Range;
@@ -92,8 +92,31 @@ impl Debugger {
     /// The hypothesis of the step taken last; the chosen hypothesis where that step concerns none.
     pub fn focus(&self) -> Option<HypothesisId> {
         let replay = self.replay.as_ref()?;
-        let block = replay.at().checked_sub(1).and_then(|last| replay.trace().block_at(last));
-        block.map(|block| block.topic.hypothesis()).or(self.chosen)
+        let of_step = |last| {
+            let block = replay.trace().block_at(last);
+            block.map_or_else(|| self.subject_of(replay, last), |block| Some(block.topic.hypothesis()))
+        };
+        replay.at().checked_sub(1).and_then(of_step).or(self.chosen)
+    }
+
+    /// The hypothesis that a step outside of all blocks is about, or that became the region that the step is about.
+    fn subject_of(&self, replay: &Replay, step: usize) -> Option<HypothesisId> {
+        let event = match replay.trace().step(step)? {
+            Step::Event(event) => event,
+            Step::Label { pixel, .. } => {
+                let label = replay.labels().as_slice().get(pixel.index());
+                return label.copied().and_then(HypothesisId::from_label);
+            }
+            Step::Claim { .. } | Step::Refusal { .. } => return None,
+        };
+        event.subjects().into_iter().flatten().find_map(|subject| match subject {
+            Subject::Hypothesis(hypothesis) => Some(hypothesis),
+            Subject::Region(region) => {
+                let became = |&id: &HypothesisId| replay.region_of(id) == Some(region);
+                self.names.hypotheses_of(region).find(became)
+            }
+            Subject::Blob(_) => None,
+        })
     }
 }
 

@@ -2,14 +2,14 @@
 
 use crate::window::{
     Window, apply, at, choose, click, drag, item, named, press, says, state, tap, tiny_window, with_gpu,
-    zoom_in,
+    words, zoom_in,
 };
 use dichroscope::app::{
     Breakpoint, Command, Condition, DebugCommand, DebugSettings, Direction, Edit, StepUnit, ViewCommand,
 };
 use dichroscope::gui::Pane;
 use dichroscope::raster::HypothesisId;
-use dichroscope::trace::{Kind, Replay, Step, Topic, Trace};
+use dichroscope::trace::{Kind, Replay, Step, Subject, Topic, Trace};
 use dichroscope::view::{Item, watch};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, Pos2, pos2, vec2};
@@ -408,5 +408,28 @@ fn a_narrow_window_clips_nothing() {
         }
         let track = named(&window, Role::Slider, "Timeline").rect();
         assert!(track.height() > 20.0 && track.bottom() <= height, "{track} at {width}");
+    }
+}
+
+#[test]
+fn a_step_about_a_region_or_a_pixel_of_a_region_shows_the_plane_of_the_region() {
+    let mut window = tiny_window();
+    window.state_mut().show_alone(Some(Pane::Plane));
+    let trace = trace(&window);
+    let is_about_region = |step: &Step| match step {
+        Step::Event(event) => {
+            event.subjects().into_iter().flatten().any(|subject| matches!(subject, Subject::Region(_)))
+        }
+        _ => false,
+    };
+    let event = trace.steps().find(|(_, step)| is_about_region(step)).expect("a region is split").0;
+    let label =
+        trace.steps().find(|(_, step)| matches!(step, Step::Label { .. })).expect("pixels have kinds").0;
+    for step in [event, label] {
+        seek(&mut window, step + 1);
+        assert!(state(&window).debugger.focus().is_some());
+        let planes = window.query_all_by_role(Role::Canvas).filter_map(|node| words(&node));
+        let planes: Vec<String> = planes.collect();
+        assert!(planes.iter().any(|name| name.starts_with("Growth of hypothesis")), "{step}: {planes:?}");
     }
 }
