@@ -75,11 +75,6 @@ impl History {
         }
     }
 
-    /// Whether further changes of a gesture would belong to the last step.
-    pub fn is_in_gesture(&self) -> bool {
-        self.open.is_some()
-    }
-
     /// Undoes the last step: returns the document before it, and keeps the present one for redo.
     pub fn undo(&mut self, now: &Document) -> Option<Document> {
         self.open = None;

@@ -2,16 +2,15 @@
 
 use super::theme::SMALL_PT;
 use super::{PanelContext, widgets};
-use crate::app::{Edit, document_change};
-use crate::view::Item;
+use crate::app::{Document, Edit, document_change};
 use egui::accesskit::Role;
 use egui::{Align, Button, Key, RichText, ScrollArea, Ui, WidgetInfo};
 
 /// The history panel, with the sentences computed last.
 #[derive(Default)]
 pub struct HistoryPanel {
-    /// Number of entries and index of the present one, selected item, and the sentences.
-    shown: Option<(usize, usize, Option<Item>, Vec<String>)>,
+    /// Number of entries, index of the present one, the present document, and the sentences.
+    shown: Option<(usize, usize, Document, Vec<String>)>,
     /// Index of the present entry in the last frame; the list scrolls to the present entry where the index changed.
     present: Option<usize>,
 }
@@ -24,13 +23,16 @@ impl HistoryPanel {
             return widgets::placeholder(ui, cx.palette, text);
         };
         let (entries, present) = cx.state.history.entries(&cx.state.document);
-        let key = (entries.len(), present, cx.state.document.selection.item);
-        let is_known = self.shown.as_ref().is_some_and(|(len, at, item, _)| (*len, *at, *item) == key);
-        if !is_known || cx.state.history.is_in_gesture() {
+        let document = &cx.state.document;
+        let is_known = self
+            .shown
+            .as_ref()
+            .is_some_and(|(len, at, shown, _)| (*len, *at) == (entries.len(), present) && shown == document);
+        if !is_known {
             let width = picture.size().0;
             let changes = entries.windows(2).map(|pair| document_change(pair[0], pair[1], width));
-            let first = format!("{} opened", picture.origin.name());
-            self.shown = Some((key.0, key.1, key.2, std::iter::once(first).chain(changes).collect()));
+            let sentences = std::iter::once(format!("{} opened", picture.origin.name())).chain(changes);
+            self.shown = Some((entries.len(), present, document.clone(), sentences.collect()));
         }
         let has_moved = self.present.replace(present) != Some(present);
         let Some((.., sentences)) = &self.shown else { return };

@@ -1,7 +1,7 @@
 //! Tests of the history panel: every step in words, and jumps by click and key.
 
 use crate::window::{apply, click, named, press, region, says, sigma, state, tiny_window, undo};
-use dichroscope::app::Edit;
+use dichroscope::app::{Edit, Gesture};
 use dichroscope::gui::Pane;
 use dichroscope::params::{Parameter, Setting};
 use egui::accesskit::Role;
@@ -35,4 +35,17 @@ fn every_step_is_listed_and_a_click_or_an_arrow_goes_there() {
     assert_ne!(state(&window).document.selection.item, Some(region(2)));
     apply(&mut window, Edit::GoTo(0));
     assert!(!state(&window).history.can_undo());
+}
+
+#[test]
+fn the_last_value_of_a_gesture_is_listed_where_the_gesture_ends_in_the_same_frame() {
+    let mut window = tiny_window();
+    window.state_mut().show_alone(Some(Pane::History));
+    let gesture = Gesture::Parameter(Parameter::CameraNoise);
+    let to = |value| Edit::SetParameter(Parameter::CameraNoise, Setting::Value(value), Some(gesture));
+    apply(&mut window, to(3.0));
+    assert!(says(&window, "camera_noise: auto \u{2192} 3"));
+    window.state_mut().apply(to(4.0));
+    apply(&mut window, Edit::EndGesture(gesture));
+    assert!(says(&window, "camera_noise: auto \u{2192} 4"));
 }
