@@ -61,7 +61,9 @@ fn parts(cx: &PanelContext) -> Vec<StatusPart> {
             "How the numbers of the file were read as amounts of light (File, Read as).",
         ),
     ];
-    if let Some(shown) = cx.state.shown() {
+    // The verdict under the picture is about the same result.
+    let preview = cx.state.shown_preview().map(|(preview, _)| &preview.shown);
+    if let Some(shown) = preview.or_else(|| cx.state.shown()) {
         let used = &shown.analysis.used;
         let auto = if shown.params.get(Parameter::CameraNoise).value().is_none() { " auto" } else { "" };
         if cx.state.shows_pinned() {
@@ -78,7 +80,7 @@ fn parts(cx: &PanelContext) -> Vec<StatusPart> {
         let tip = "Regions, those that the model does not fit, and the share of the lit pixels in regions.";
         parts.push(StatusPart { text, tip: tip.to_owned(), is_bad: misfits > 0 });
         // Until the last stage is there, the sum would be the time of some of them.
-        if shown.stale_from.is_none() {
+        if shown.stale_from.is_none() && preview.is_none() {
             parts.push(quiet(duration_text(shown.total_ms()), "Time that the analysis took."));
         }
     }
@@ -130,8 +132,11 @@ fn progress(ui: &mut Ui, cx: &mut PanelContext) {
     {
         cx.send(JobCommand::CancelExport);
     }
-    let bar = egui::ProgressBar::new(done.unwrap_or(1.0)).desired_width(72.0).desired_height(6.0);
-    ui.add(bar.fill(cx.palette.accent));
+    // A bar without a measure would look like work that has ended.
+    if let Some(done) = done {
+        let bar = egui::ProgressBar::new(done).desired_width(72.0).desired_height(6.0);
+        ui.add(bar.fill(cx.palette.accent));
+    }
     ui.label(RichText::new(words).size(SMALL_PT).color(cx.palette.accent));
     ui.add(egui::Spinner::new().size(12.0).color(cx.palette.accent));
 }

@@ -311,3 +311,22 @@ fn the_selected_region_is_outlined_in_the_preview_as_the_preview_has_it() {
     }
     assert!(is_outlined > 5, "the region has a border");
 }
+
+#[test]
+fn the_status_line_is_about_the_result_that_the_verdict_is_about() {
+    let mut state_before = state_with_preview();
+    let mut preview = state_before.preview.take().unwrap();
+    let mut analysis = preview.shown.analysis.clone();
+    analysis.used.camera_noise = 7.77;
+    let (picture, colors) = (Arc::clone(&preview.shown.picture), preview.shown.region_colors.clone());
+    let mut shown = ResultSnapshot::new(picture, params(), analysis, colors);
+    shown.generation = state_before.generation;
+    preview.shown = Arc::new(shown);
+    state_before.preview = Some(preview);
+    let Some(mut window) = with_state(SIZE, state_before) else { return };
+    window.run_steps(2);
+    let [of_preview, of_whole] = ["\u{3c3}0 7.77", "\u{3c3}0 2.5"];
+    assert!(says(&window, of_preview) && !says(&window, of_whole));
+    finish(&mut window);
+    assert!(!says(&window, of_preview) && says(&window, of_whole));
+}
