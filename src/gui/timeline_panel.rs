@@ -42,8 +42,9 @@ impl TimelinePanel {
             return widgets::placeholder(ui, cx.palette, "Recording the decisions of the analysis\u{2026}");
         };
         let names = self.names(debugger.generation, replay.trace());
+        let has_room = has_room_for_answers(ui.max_rect());
         Frame::new().inner_margin(Margin { left: 8, right: 8, top: 3, bottom: 5 }).show(ui, |ui| {
-            transport::show(ui, cx, replay, &names);
+            transport::show(ui, cx, replay, &names, has_room);
             self.track.show(ui, cx, replay, &names);
         });
     }

@@ -2,7 +2,7 @@
 
 use super::icons::{self, PlaybackIcon};
 use super::run_to;
-use crate::app::{Command, DebugCommand, DebugSettings, Direction, StepUnit};
+use crate::app::{Command, DebugCommand, DebugSettings, Direction, Missed, StepUnit};
 use crate::describe::Names;
 use crate::describe::grouped;
 use crate::gui::PanelContext;
@@ -86,8 +86,9 @@ const RIGHT: [Control; 5] = [
     ),
 ];
 
-/// Shows the playback controls and the sentence about the last step.
-pub fn show(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, names: &Names) {
+/// Shows the playback controls and the sentence about the last step. `has_room`: whether there is room for what the debugger answers to a key.
+pub fn show(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, names: &Names, has_room: bool) {
+    let missed = cx.state.debugger.missed.filter(|_| has_room);
     ui.spacing_mut().item_spacing = vec2(2.0, 3.0);
     ui.spacing_mut().interact_size.y = icons::SIDE_PT;
     let has_two_rows = ui.available_height() >= TWO_ROWS_PT;
@@ -106,17 +107,16 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, names: &Names) 
             ui.allocate_ui_with_layout(size, layout, |ui| step_field(ui, cx, replay, is_narrow));
             let beside = !has_two_rows || ui.available_size_before_wrap().x >= SENTENCE_PT;
             // At the result the sentence tells no verdict: a rest of it would only be cut off.
-            let debugger = &cx.state.debugger;
-            let tells = debugger.stopped().is_some() || debugger.missed.is_some();
+            let tells = cx.state.debugger.stopped().is_some() || missed.is_some();
             let is_needed = tells || ui.available_size_before_wrap().x >= SENTENCE_PT;
             if beside && is_needed {
-                sentence(ui, cx, replay, names);
+                sentence(ui, cx, replay, names, missed);
             }
             beside
         })
         .inner;
     if !beside {
-        ui.horizontal(|ui| sentence(ui, cx, replay, names));
+        ui.horizontal(|ui| sentence(ui, cx, replay, names, missed));
     }
 }
 
@@ -283,7 +283,7 @@ fn step_field(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, is_narrow: bo
 }
 
 /// Shows the state of the cursor (playing, stopped), or what its last move did not find, and a sentence about the last step.
-fn sentence(ui: &mut Ui, cx: &PanelContext, replay: &Replay, names: &Names) {
+fn sentence(ui: &mut Ui, cx: &PanelContext, replay: &Replay, names: &Names, missed: Option<Missed>) {
     let debugger = &cx.state.debugger;
     let text = match replay.last() {
         Some(step) => names.step(&step),
@@ -292,7 +292,7 @@ fn sentence(ui: &mut Ui, cx: &PanelContext, replay: &Replay, names: &Names) {
     // The sentence is truncated where it does not fit, as the space below belongs to the track; the verdict never is.
     let size = vec2(ui.available_size_before_wrap().x.max(1.0), ui.spacing().interact_size.y);
     ui.allocate_ui_with_layout(size, egui::Layout::left_to_right(egui::Align::Center), |ui| {
-        status(ui, cx);
+        status(ui, cx, missed);
         ui.add_space(6.0);
         if let Some(step) = replay.last().filter(|_| debugger.stopped().is_some()) {
             verdict(ui, cx, &step);
@@ -302,9 +302,9 @@ fn sentence(ui: &mut Ui, cx: &PanelContext, replay: &Replay, names: &Names) {
 }
 
 /// Shows the state of the cursor in a word, or what its last move did not find.
-fn status(ui: &mut Ui, cx: &PanelContext) {
+fn status(ui: &mut Ui, cx: &PanelContext, missed: Option<Missed>) {
     let debugger = &cx.state.debugger;
-    if let Some(missed) = debugger.missed {
+    if let Some(missed) = missed {
         let text = capitalized(&missed.text());
         let label = Label::new(RichText::new(&text).size(SMALL_PT).color(cx.palette.warning));
         ui.add(label.truncate().show_tooltip_when_elided(false)).on_hover_text(text);

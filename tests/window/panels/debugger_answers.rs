@@ -88,6 +88,10 @@ fn an_answer_that_has_no_room_in_the_timeline_is_a_notice() {
     plain(&mut window, Key::ArrowRight);
     let notices = &state(&window).notices;
     assert!(notices.iter().any(|notice| notice.text == "nothing follows the result"), "{notices:?}");
+    assert!(
+        !says(&window, "Nothing follows the result"),
+        "the timeline, which would cut the answer, has none"
+    );
 }
 
 #[test]
