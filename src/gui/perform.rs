@@ -76,9 +76,10 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
             }
         }
         Action::Region(next) => select_adjacent_region(cx, next),
-        Action::Pin => cx.send(ViewCommand::Pin(cx.state.pinned.is_none())),
+        Action::Pin => pin(cx),
         Action::PinAnew => cx.send(ViewCommand::Pin(true)),
         Action::FirstDifference => cx.send(Command::Debug(DebugCommand::Compare)),
+        Action::Swap if cx.state.pinned.is_none() => answer(cx, "no result is pinned: K pins the newest one"),
         Action::Swap => cx.send(ViewCommand::ShowPinned(!cx.state.view.show_pinned)),
         Action::Theme => cx.send(ViewCommand::Theme(other_theme(cx.state.view.theme))),
         Action::UseTheme(theme) => cx.send(ViewCommand::Theme(theme)),
@@ -262,9 +263,24 @@ fn find_what_if(cx: &mut PanelContext) {
     }
 }
 
+/// Tells why an action has no effect.
+fn answer(cx: &mut PanelContext, text: &str) {
+    cx.send(ViewCommand::Notify(Severity::Answer, text.to_owned()));
+}
+
+/// Pins the newest result, or unpins the pinned one.
+fn pin(cx: &mut PanelContext) {
+    if cx.state.pinned.is_none() && cx.state.newest.is_none() {
+        return answer(cx, "there is no result to pin yet");
+    }
+    cx.send(ViewCommand::Pin(cx.state.pinned.is_none()));
+}
+
 /// Marks the pixels of the selected region.
 fn mark_region(cx: &mut PanelContext) {
-    let (Some(region), Some(shown)) = (cx.state.selected_region(), cx.state.shown()) else { return };
+    let (Some(region), Some(shown)) = (cx.state.selected_region(), cx.state.shown()) else {
+        return answer(cx, "select a region first: its pixels are marked");
+    };
     let mask = shown.labels().map(|&label| label == region.get());
     cx.send(Edit::Mark(Arc::new(mask), Combine::Replace, None));
 }

@@ -252,3 +252,18 @@ fn of_two_keys_that_fit_the_one_with_more_modifiers_is_meant() {
     press(&mut window, Modifiers::COMMAND.plus(Modifiers::SHIFT), Key::Z);
     assert_eq!(state(&window).document.params, changed);
 }
+
+#[test]
+fn a_key_without_an_effect_says_why() {
+    let mut without_photograph = window();
+    press(&mut without_photograph, Modifiers::NONE, Key::K);
+    assert!(says(&without_photograph, "there is no result to pin yet"));
+    let mut window = tiny_window();
+    press(&mut window, Modifiers::NONE, Key::A);
+    assert!(says(&window, "no result is pinned: K pins the newest one"));
+    press(&mut window, Modifiers::COMMAND, Key::A);
+    assert!(says(&window, "select a region first"));
+    press(&mut window, Modifiers::NONE, Key::K);
+    press(&mut window, Modifiers::NONE, Key::A);
+    assert!(state(&window).shows_pinned());
+}
