@@ -70,6 +70,7 @@ mod view_export;
 mod watch_panel;
 mod widgets;
 mod window;
+mod window_content;
 
 pub use app::App;
 pub use pane::Pane;
