@@ -4,6 +4,7 @@ use super::debugger_answers::apply_answered;
 use super::dock::Panels;
 use super::keyboard_focus::end_editing_on_press;
 use super::pane::Pane;
+use super::pointer_frames::PointerFrames;
 use super::theme::{self, ThemeColors};
 use super::window_content::WindowContent;
 use super::{PanelContext, task};
@@ -48,6 +49,7 @@ impl App {
     ) -> std::io::Result<Self> {
         theme::load_fonts(ctx);
         end_editing_on_press(ctx);
+        ctx.add_plugin(PointerFrames::default());
         let repaint_context = Arc::new(Mutex::new(ctx.clone()));
         let shared = Arc::clone(&repaint_context);
         let wake = move || shared.lock().unwrap_or_else(PoisonError::into_inner).request_repaint();
@@ -59,6 +61,7 @@ impl App {
     pub fn move_to(&mut self, ctx: &egui::Context, gpu: Option<egui_wgpu::RenderState>) {
         theme::load_fonts(ctx);
         end_editing_on_press(ctx);
+        ctx.add_plugin(PointerFrames::default());
         *self.repaint_context.lock().unwrap_or_else(PoisonError::into_inner) = ctx.clone();
         self.content.forget_uploads();
         (self.gpu, self.applied_theme) = (gpu, None);

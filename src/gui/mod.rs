@@ -47,6 +47,7 @@ mod panel_context;
 mod parameters;
 mod perform;
 mod plane_panel;
+mod pointer_frames;
 mod profile_panel;
 mod proposed_path;
 mod regions_panel;

@@ -8,7 +8,7 @@ use dichroscope::app::{ExportKind, JobCommand};
 use dichroscope::gui::Pane;
 use dichroscope::params::{AmbientSetting, Method, Parameter, Params, Preset, Setting};
 use egui::accesskit::Role;
-use egui::{Event, Key, Modifiers, Rect};
+use egui::{Event, Key, Modifiers, PointerButton, Rect};
 use egui_kittest::kittest::Queryable;
 
 const SIGMA: &str = "camera noise \u{3c3}0";
@@ -311,4 +311,27 @@ fn ambient_light_is_given_switched_off_and_found_again() {
     assert_eq!(state(&window).document.params.ambient, AmbientSetting::Auto);
     undo(&mut window);
     assert_eq!(state(&window).document.params.ambient, AmbientSetting::Given([0.0, 0.0, 6.0]));
+}
+
+#[test]
+fn a_drag_within_one_frame_ends_where_the_slider_was_let_go() {
+    let mut window = tiny_window();
+    let slider = named(&window, Role::Slider, "slice width").rect();
+    let width = |window: &Window| state(window).document.params.get(Parameter::SliceWidth);
+    let before = width(&window);
+    let [from, to] = [0.2, 0.5].map(|share| slider.lerp_inside(egui::vec2(share, 0.5)));
+    let button = |pos, pressed| {
+        let modifiers = Modifiers::NONE;
+        Event::PointerButton { pos, button: PointerButton::Primary, pressed, modifiers }
+    };
+    let away = Event::PointerMoved(egui::pos2(300.0, 700.0));
+    let drag =
+        [Event::PointerMoved(from), button(from, true), Event::PointerMoved(to), button(to, false), away];
+    window.input_mut().events.extend(drag);
+    window.run_steps(8);
+    let Setting::Value(value) = width(&window) else { panic!("the slider has moved") };
+    let [least, most] = Parameter::SliceWidth.spec().slider.range;
+    assert!(width(&window) != before && value > least && value < most, "{value}");
+    undo(&mut window);
+    assert_eq!(width(&window), before, "a drag is one step");
 }
