@@ -16,7 +16,7 @@ use super::view_export::ViewExporter;
 use super::{PanelContext, copied_texts, menu, notices, perform, shortcuts, theme, timeline_panel, widgets};
 use crate::app::{Severity, State, ViewCommand};
 use crate::view::{ProfileLine, Tool};
-use egui::{Event, RichText, Ui};
+use egui::{Context, Event, LayerId, Order, PointerState, Popup, RichText, Ui};
 
 /// The panels, and the dialogs that open over the panels.
 #[derive(Default)]
@@ -147,6 +147,7 @@ impl WindowContent {
             held_keys.get_or_insert_default().extend(take_keys(ui.ctx()));
         }
         self.raise_drawn_profile(cx);
+        let covered = self.take_covered_pointer(ui.ctx());
         let frame = egui::Frame::new().fill(cx.palette.line);
         egui::CentralPanel::default().frame(frame).show(ui, |ui| {
             if self.dock.is_empty() {
@@ -155,6 +156,9 @@ impl WindowContent {
                 self.show_panels(ui, cx);
             }
         });
+        if let Some(pointer) = covered {
+            ui.ctx().input_mut(|input| input.pointer = pointer);
+        }
         if let Some(keys) = held_keys {
             ui.ctx().input_mut(|input| input.events.extend(keys));
         }
@@ -162,6 +166,19 @@ impl WindowContent {
         self.show_over_panels(ui, cx);
         self.is_text_edited = ui.ctx().text_edit_focused();
         self.keyboard_focus.show(ui.ctx(), cx.palette);
+    }
+
+    /// Takes the pointer out of the input of the panels while a dialog lies under the pointer, and returns the pointer. Otherwise the tooltip of a
+    /// widget under a dialog that has just opened would stay, over the dialog.
+    fn take_covered_pointer(&self, ctx: &Context) -> Option<PointerState> {
+        let is_covered =
+            self.dialogs.is_open() || self.command_palette.is_open() || self.closing.is_open() || self.help;
+        let at = ctx.pointer_hover_pos().filter(|_| is_covered && !Popup::is_any_open(ctx))?;
+        let is_over_panels = |layer: LayerId| layer.order == Order::Background;
+        if ctx.input(|input| input.pointer.any_down()) || ctx.layer_id_at(at).is_none_or(is_over_panels) {
+            return None;
+        }
+        Some(ctx.input_mut(|input| std::mem::take(&mut input.pointer)))
     }
 
     /// Carries out the actions of the pressed keys, of the menus and of the palette. Returns the keys that are kept from the panels, where a dialog

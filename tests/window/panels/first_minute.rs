@@ -223,3 +223,22 @@ fn a_second_photograph_is_shown_with_its_own_verdict() {
         "a choice of the first start only"
     );
 }
+
+#[test]
+fn a_dialog_that_opens_under_the_pointer_ends_the_tooltip_of_what_it_covers() {
+    let mut window = tiny_window();
+    let covered = named(&window, Role::Label, "slice width").rect().center();
+    for (modifiers, key) in [(Modifiers::NONE, Key::F1), (Modifiers::COMMAND, Key::P)] {
+        window.hover_at(covered);
+        window.run_steps(40);
+        assert_eq!(tooltips(&window), 1, "{key:?}");
+        press(&mut window, modifiers, key);
+        window.run_steps(4);
+        let covers = window.ctx.layer_id_at(covered).is_some_and(|layer| layer.order != Order::Background);
+        assert_eq!(tooltips(&window), usize::from(!covers), "{key:?}");
+        assert!(covers || key == Key::P, "the list of keys is as wide as the window");
+        press(&mut window, Modifiers::NONE, if key == Key::F1 { key } else { Key::Escape });
+        window.hover_at(egui::Pos2::ZERO);
+        window.run_steps(4);
+    }
+}
