@@ -1,17 +1,16 @@
 //! Dialogs for files: a field for the path, and beside the field the system's own file dialog, where the system has one.
 
-use super::PanelContext;
 use super::action::{LayerFile, PixelSet};
 use super::confirmed_path::{confirmed_path, problem_of};
 use super::dialog::Dialog;
 use super::export_form::ExportForm;
 use super::proposed_path::{proposed_layer_path, proposed_path, proposed_pixels_path};
 use super::system_dialog::{Answer, SystemDialog, Wanted};
-use super::typed_path::{file_name_span, typed_path, unique_names};
+use super::typed_path::{file_name_span, typed_path};
 use super::view_export::ViewExport;
+use super::{PanelContext, open_form};
 use crate::app::{Export, ExportKind, JobCommand, Notice, Severity, ViewCommand, is_workspace};
-use crate::truth::sample::{SAMPLES, THREE_LAMPS};
-use crate::view::{ElsewhereKind, Layer, Origin};
+use crate::view::{Layer, Origin};
 use egui::text::{CCursor, CCursorRange};
 use egui::text_edit::TextEditState;
 use egui::{Key, Modifiers, RichText, Ui};
@@ -176,9 +175,9 @@ impl Dialogs {
                 }
                 self.path_row(ui, dialog, cx);
                 if let Dialog::OpenElsewhere(kind) = dialog {
-                    elsewhere_note(ui, cx, kind);
+                    open_form::elsewhere_note(ui, cx, kind);
                 }
-                dialog == Dialog::Open && Self::samples_and_recent(ui, cx)
+                dialog == Dialog::Open && open_form::samples_and_recent(ui, cx)
             },
         );
         if let Some(shown) = &shown {
@@ -341,35 +340,6 @@ impl Dialogs {
         }
     }
 
-    /// Shows the sample scenes and the photographs opened before. Returns whether one was chosen.
-    fn samples_and_recent(ui: &mut Ui, cx: &mut PanelContext) -> bool {
-        let mut chosen: Option<JobCommand> = None;
-        ui.add_space(4.0);
-        super::widgets::heading(ui, cx.palette, "Sample scenes");
-        for sample in &SAMPLES {
-            let tip = format!("{} Rendered, with its ground truth.", sample.about);
-            if ui.link(sample.name).on_hover_text(tip).clicked() {
-                chosen = Some(JobCommand::Open(Origin::Sample(sample.name.to_owned())));
-            }
-        }
-        if ui.link(THREE_LAMPS.name).on_hover_text(THREE_LAMPS.about).clicked() {
-            chosen = Some(JobCommand::open_samples(&THREE_LAMPS));
-        }
-        if !cx.state.recent.is_empty() {
-            super::widgets::heading(ui, cx.palette, "Recent");
-            for (path, name) in cx.state.recent.iter().zip(unique_names(&cx.state.recent)) {
-                if ui.link(name).on_hover_text(path.display().to_string()).clicked() {
-                    chosen = Some(JobCommand::Open(Origin::File(path.clone())));
-                }
-            }
-        }
-        let is_chosen = chosen.is_some();
-        if let Some(command) = chosen {
-            cx.send(command);
-        }
-        is_chosen
-    }
-
     /// Opens the system's file dialog where the typed path leads.
     fn browse(&mut self, ctx: &egui::Context, dialog: Dialog) {
         let wanted = match dialog {
@@ -407,19 +377,6 @@ fn select_name(ui: &Ui, field: egui::Id, path: &str) {
     let [first, last] = file_name_span(path).map(CCursor::new);
     state.cursor.set_char_range(Some(CCursorRange::two(first, last)));
     state.store(ui.ctx(), field);
-}
-
-/// Shows what a file of another program is to hold.
-fn elsewhere_note(ui: &mut Ui, cx: &PanelContext, kind: ElsewhereKind) {
-    let text = match kind {
-        ElsewhereKind::Labels => {
-            "A picture of the photograph's size: gray of 8 or 16 bits with 0 for no label, or one color for each label and black for none; not smoothed, no JPEG."
-        }
-        ElsewhereKind::Diffuse => {
-            "The photograph without its highlights, of the photograph's size, read as the photograph is (menu Read as)."
-        }
-    };
-    ui.add(egui::Label::new(RichText::new(text).color(cx.palette.secondary)).wrap());
 }
 
 /// The id of the newest notice; 0 without a notice.

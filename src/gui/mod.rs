@@ -41,6 +41,7 @@ mod named_marks_list;
 mod notices;
 mod offscreen;
 mod offscreen_app;
+mod open_form;
 mod outline;
 mod pane;
 mod panel_context;
