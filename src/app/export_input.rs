@@ -37,7 +37,7 @@ pub(super) struct ExportInput {
     pub(super) shown: Option<Arc<ResultSnapshot>>,
     pub(super) pinned: Option<Arc<ResultSnapshot>>,
     pub(super) elsewhere: Option<Arc<Elsewhere>>,
-    /// Whether an analysis is under way.
+    /// Whether the result that the window shows is being computed anew.
     pub(super) is_analyzing: bool,
     pub(super) document: Document,
     /// The settings of the image view.
@@ -58,7 +58,7 @@ impl ExportInput {
             shown: state.shown().cloned(),
             pinned: state.pinned.clone(),
             elsewhere: state.elsewhere.clone(),
-            is_analyzing: state.jobs.analysis.is_some(),
+            is_analyzing: state.awaits_result(),
             document: state.document.clone(),
             image: state.view.image.clone(),
             selected_region: state.selected_region(),

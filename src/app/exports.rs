@@ -43,6 +43,8 @@ struct ExportRow {
     offered: bool,
     /// Whether there is anything to write.
     available: fn(&State) -> bool,
+    /// Whether the file holds something of the result.
+    of_result: bool,
     /// The function that writes the export.
     writer: Writer,
 }
@@ -77,6 +79,7 @@ exports! {
         file: "matte",
         offered: true,
         available: |_| true,
+        of_result: true,
         writer: Writer::File(write::matte),
     };
     /// The files of `analyze`, as a folder.
@@ -86,6 +89,7 @@ exports! {
         file: "result",
         offered: true,
         available: |_| true,
+        of_result: true,
         writer: Writer::Folder(write::result),
     };
     /// The layer of the image view, one pixel of the file for each pixel of the photograph.
@@ -95,6 +99,7 @@ exports! {
         file: "layer.png",
         offered: true,
         available: |_| true,
+        of_result: true,
         writer: Writer::File(write::layer),
     };
     /// A picture that a view has drawn.
@@ -104,6 +109,7 @@ exports! {
         file: "view.png",
         offered: true,
         available: |_| true,
+        of_result: false,
         writer: Writer::File(write::drawn),
     };
     /// The selection as a mask (`.png`), a table (`.csv`) or points (`.ply`).
@@ -113,6 +119,7 @@ exports! {
         file: "selection.png",
         offered: true,
         available: |state| state.document.selection.marked.is_some(),
+        of_result: false,
         writer: Writer::File(write::selection),
     };
     /// The area that the analysis is restricted to, as a mask for `--area`.
@@ -122,6 +129,7 @@ exports! {
         file: "area.png",
         offered: true,
         available: |state| state.document.area.is_some(),
+        of_result: false,
         writer: Writer::File(write::area),
     };
     /// The table of the regions, separated by commas, or by tabs in a file `.tsv` or `.txt`.
@@ -131,6 +139,7 @@ exports! {
         file: "regions.csv",
         offered: true,
         available: |_| true,
+        of_result: true,
         writer: Writer::File(write::regions),
     };
     /// The profile's numbers.
@@ -140,6 +149,7 @@ exports! {
         file: "profile.csv",
         offered: true,
         available: |_| true,
+        of_result: true,
         writer: Writer::File(write::profile_table),
     };
     /// The figures and tables of the paper for the photograph, as a page.
@@ -149,6 +159,7 @@ exports! {
         file: "figures.html",
         offered: true,
         available: |_| true,
+        of_result: true,
         writer: Writer::File(write::figures),
     };
     /// The parameters as TOML.
@@ -158,6 +169,7 @@ exports! {
         file: "parameters.toml",
         offered: false,
         available: |_| true,
+        of_result: false,
         writer: Writer::File(write::parameters),
     };
     /// The workspace as JSON.
@@ -167,6 +179,7 @@ exports! {
         file: "workspace.dichroscope",
         offered: false,
         available: |_| true,
+        of_result: false,
         writer: Writer::File(write::workspace),
     };
 }
@@ -195,6 +208,12 @@ impl ExportKind {
     /// Whether there is anything to write.
     pub fn is_available(self, state: &State) -> bool {
         (self.row().available)(state)
+    }
+
+    /// Whether the file holds something of the result, so that an analysis under way is to be waited for.
+    pub const fn is_of_result(self, options: &ExportOptions) -> bool {
+        // The pixels of a region are those of the result.
+        self.row().of_result || options.region.is_some()
     }
 
     /// The end of the proposed file name. Without an extension, a file gets the photograph's.

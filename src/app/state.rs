@@ -107,6 +107,11 @@ impl State {
         self.preview.as_ref().map(|preview| preview.blocks.side()).or_else(of_newest).unwrap_or(1)
     }
 
+    /// Whether an analysis is under way whose result the panels will show.
+    pub fn awaits_result(&self) -> bool {
+        self.jobs.analysis.is_some() && !self.shows_pinned()
+    }
+
     /// Whether the newest result is complete and belongs to the present parameters.
     pub fn is_current(&self) -> bool {
         self.newest

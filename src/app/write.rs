@@ -141,10 +141,11 @@ fn picture(input: &ExportInput) -> Result<&Picture, String> {
 fn shown(input: &ExportInput) -> Result<&ResultSnapshot, String> {
     picture(input)?;
     match input.shown.as_deref() {
-        Some(shown) if shown.stale_from.is_none() => Ok(shown),
+        // The result before belongs to other parameters.
         _ if input.is_analyzing => {
             Err("nothing to export yet: the analysis is still under way; try again when it has ended".into())
         }
+        Some(shown) if shown.stale_from.is_none() => Ok(shown),
         _ => Err("nothing to export: the analysis gave no result; change a parameter to run it again".into()),
     }
 }

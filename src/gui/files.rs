@@ -70,6 +70,8 @@ enum Focus {
 enum Waiting {
     /// A file is being read; the number is the id of the newest notice before.
     Reading(u64),
+    /// The result is being computed, which is written next.
+    Analysis,
     /// A view is being drawn, which is written next.
     Drawing,
     /// A file or a folder is being written.
@@ -81,6 +83,9 @@ impl Waiting {
     const fn text(self) -> &'static str {
         match self {
             Self::Reading(_) => "Reading\u{2026}",
+            Self::Analysis => {
+                "The analysis is under way: the file is written when it has ended. Escape gives that up."
+            }
             Self::Drawing | Self::Writing => {
                 "Writing\u{2026} Escape closes this window, and the file is written."
             }
@@ -209,6 +214,7 @@ impl Dialogs {
     fn export_form(&mut self, ui: &mut Ui, cx: &PanelContext) {
         if self.export.show(ui, cx) {
             self.problem.clear();
+            self.waiting.take_if(|waiting| *waiting == Waiting::Analysis);
             self.path = proposed_path(self.export.kind, cx).display().to_string();
             self.focus = Some(Focus::Name);
         }
@@ -217,6 +223,10 @@ impl Dialogs {
     /// Shows the path's field, the buttons, and what is under way or went wrong.
     fn path_row(&mut self, ui: &mut Ui, dialog: Dialog, cx: &mut PanelContext) {
         let mut confirmed = std::mem::take(&mut self.is_confirmed);
+        let has_result = self.waiting == Some(Waiting::Analysis) && !cx.state.awaits_result();
+        if has_result {
+            (self.waiting, confirmed) = (None, true);
+        }
         ui.horizontal(|ui| {
             let label = ui.label("Path");
             let field = egui::TextEdit::singleline(&mut self.path).desired_width(path_width(ui.ctx()));
@@ -225,6 +235,7 @@ impl Dialogs {
             let response = ui.add(field.hint_text("path of a file")).labelled_by(label.id);
             if response.changed() {
                 self.problem.clear();
+                self.waiting.take_if(|waiting| *waiting == Waiting::Analysis);
             }
             if let Some(focus) = self.focus.take() {
                 response.request_focus();
@@ -270,6 +281,11 @@ impl Dialogs {
             return;
         }
         self.problem.clear();
+        let is_of_result = dialog == Dialog::Export && self.export.kind.is_of_result(&self.export.options);
+        if is_of_result && cx.state.awaits_result() {
+            self.waiting = Some(Waiting::Analysis);
+            return;
+        }
         self.waiting =
             Some(if dialog.reads() { Waiting::Reading(newest_notice(cx)) } else { Waiting::Writing });
         cx.send(match dialog {

@@ -86,6 +86,8 @@ fn an_export_that_fails_says_why_and_what_to_do() {
     fails(ExportKind::Matte.to(path.clone()), &failed, "gave no result");
     let analyzing = ExportInput { is_analyzing: true, ..failed };
     fails(ExportKind::Matte.to(path.clone()), &analyzing, "still under way");
+    let anew = ExportInput { is_analyzing: true, ..input() };
+    fails(ExportKind::Regions.to(path.clone()), &anew, "still under way");
     fails(ExportKind::View.to(path.clone()), &input(), "no view was drawn");
     let options = ExportOptions {
         drawn: Some(DrawnPicture { size: [0, 0], rgba: Vec::new().into() }),

@@ -1,12 +1,12 @@
 //! Files exported from the window equal those that the library writes. `tests/cli` tests the same of the command line.
 
 use crate::window::{
-    Fixture, Window, answer, apply, choose, click, marked, named, notice, open_sample, press, region, says,
-    shown, sigma, state, tiny, tiny_window, with_gpu,
+    Fixture, SIZE, Window, answer, apply, choose, click, marked, named, notice, open_sample, press, region,
+    says, shown, sigma, state, tiny, tiny_window, with_gpu, with_state,
 };
-use dichroscope::app::{Edit, Severity};
+use dichroscope::app::{Edit, Job, Severity};
 use dichroscope::export::{WholeResult, read_report, write_matte};
-use dichroscope::params::Setting;
+use dichroscope::params::{Parameter, Setting};
 use dichroscope::truth::sample;
 use dichroscope::view::{Layer, Separator, regions_text};
 use egui::accesskit::Role;
@@ -14,6 +14,7 @@ use egui::{Event, Key, Modifiers};
 use egui_kittest::kittest::Queryable;
 use std::fs;
 use std::path::Path;
+use std::time::Instant;
 
 /// Exports one kind of file with the export window.
 fn export(window: &mut Window, ware: &str, path: &Path) {
@@ -304,4 +305,29 @@ fn the_inspector_exports_the_pixels_of_the_region_that_it_is_about() {
     assert!(notice(&window).contains("the pixels of region 2 as a table"), "{}", notice(&window));
     let pixels = shown(&window).labels().as_slice().iter().filter(|&&label| label == 2).count();
     assert_eq!(fs::read_to_string(&path).unwrap().lines().count(), pixels + 1);
+}
+
+#[test]
+fn an_export_of_the_result_waits_for_the_analysis_under_way() {
+    let folder = tempfile::tempdir().unwrap();
+    let mut state_before = state(&tiny_window()).clone();
+    state_before.jobs.analysis = Some(Job { since: Instant::now(), stage: None, files: None });
+    let Some(mut window) = with_state(SIZE, state_before) else { return };
+    let [given_up, waited_for] = ["given-up.csv", "waited-for.csv"].map(|name| folder.path().join(name));
+    let begin = |window: &mut Window, path: &Path| {
+        press(window, Modifiers::COMMAND, Key::E);
+        click(window, Role::RadioButton, "Regions table");
+        answer(window, path);
+    };
+    begin(&mut window, &given_up);
+    assert!(says(&window, "the file is written when it has ended"));
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    begin(&mut window, &waited_for);
+    assert!(!waited_for.exists(), "the result before is not written");
+    apply(&mut window, Edit::SetParameter(Parameter::CameraNoise, Setting::Value(6.0), None));
+    window.run_steps(8);
+    assert!(state(&window).jobs.analysis.is_none() && !says(&window, "the file is written when"));
+    let written = fs::read_to_string(&waited_for).unwrap();
+    assert_eq!(written, regions_text(&shown(&window), Separator::Comma));
+    assert!(!given_up.exists());
 }
