@@ -7,11 +7,13 @@ use crate::raster::RegionId;
 use crate::view::Layer;
 use std::path::{Path, PathBuf};
 
-/// The proposed path of an export: beside the photograph, or in the working directory. Without a photograph the name is that of the kind.
+/// The proposed path of an export: beside the photograph, or for a sample scene in the working directory, which is named. Without a photograph
+/// the name is that of the kind.
 pub fn proposed_path(kind: ExportKind, cx: &PanelContext) -> PathBuf {
     let picture = cx.state.picture.as_ref();
     let photo = picture.and_then(|picture| picture.origin.path());
-    let folder = photo.and_then(Path::parent).unwrap_or(Path::new("")).to_path_buf();
+    let working_directory = || std::env::current_dir().unwrap_or_default();
+    let folder = photo.and_then(Path::parent).map_or_else(working_directory, Path::to_path_buf);
     let stem_of = |name: &str| Path::new(name).file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let name = picture.map_or_else(
         || kind.file().to_owned(),
