@@ -63,6 +63,8 @@ fn fitting_text(regions: usize, misfits: usize) -> String {
     match (regions, misfits) {
         (1, 0) => "the only region fits".to_owned(),
         (1, _) => "the only region does not fit".to_owned(),
+        (2, 0) => "both regions fit".to_owned(),
+        (2, 2) => "neither region fits".to_owned(),
         (_, 0) => format!("all {regions} regions fit"),
         _ if misfits == regions => format!("none of {regions} regions fits"),
         _ if regions - misfits == 1 => format!("1 of {regions} regions fits"),
@@ -173,6 +175,8 @@ mod tests {
             ((1, 0), "the only region fits"),
             ((1, 1), "the only region does not fit"),
             ((8, 0), "all 8 regions fit"),
+            ((2, 0), "both regions fit"),
+            ((2, 2), "neither region fits"),
             ((7, 1), "6 of 7 regions fit"),
             ((2, 1), "1 of 2 regions fits"),
             ((3, 3), "none of 3 regions fits"),
