@@ -25,8 +25,8 @@ impl About {
     /// What follows the title of the panel: the name of the result, while the pinned one is shown.
     pub fn suffix(self, state: &State) -> &'static str {
         match self {
-            Self::Shown if state.shows_pinned() => " (A, pinned)",
-            Self::Newest | Self::Request if state.shows_pinned() => " (B, newest)",
+            Self::Shown if state.shows_pinned() => " (A)",
+            Self::Newest | Self::Request if state.shows_pinned() => " (B)",
             _ => "",
         }
     }

@@ -188,10 +188,10 @@ fn the_result_shown_and_the_copied_command_line_are_named() {
     let whose_history = "The history is that of the newest result, which the key A shows again.";
     apply(&mut window, ViewCommand::Pin(true));
     assert!(!says(&window, "A: the pinned result") && !says(&window, whose_history));
-    assert!(!says(&window, "Parameters (B, newest)"));
+    assert!(!says(&window, "Parameters (B)"));
     apply(&mut window, ViewCommand::ShowPinned(true));
     assert!(says(&window, "A: the pinned result"));
-    assert!(says(&window, "Parameters (B, newest)") && says(&window, "Regions (A, pinned)"), "the tabs");
+    assert!(says(&window, "Parameters (B)") && says(&window, "Regions (A)"), "the tabs");
     assert!(says(&window, whose_history), "instead of the history of the region");
     choose(&mut window, "Analyze", "Copy as command line");
     window.run_steps(3);
