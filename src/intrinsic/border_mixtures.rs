@@ -18,10 +18,11 @@
 use super::images::Images;
 use super::region_plan::RegionPlan;
 use crate::photo::Masks;
-use crate::raster::{LabelMap, Mask, PixelIndex, RegionId, UNASSIGNED};
+use crate::raster::{LabelMap, Mask, PixelIndex, UNASSIGNED};
 use crate::segment::AnalysisInput;
 use crate::trace::{BordersLimited, LimitedPixel, PixelKind};
 use rayon::prelude::*;
+use std::ops::Range;
 
 /// Limits the surface reflection of the undistorted pixels near other regions, of regions that the model fits. Returns which pixels were limited.
 pub(super) fn limit_surface_at_borders(
@@ -35,17 +36,23 @@ pub(super) fn limit_surface_at_borders(
         return BordersLimited { reach_px: reach_px as u32, pixels: Vec::new() };
     }
     let borders = Borders { labels, masks: input.masks, reach: reach_px };
-    let inside = borders.inside(BorderKinds::All);
+    // By label: whether the model fits the region.
+    let fits: Vec<bool> = std::iter::once(false).chain(plans.iter().map(RegionPlan::model_fits)).collect();
     let unlimited = &*images;
-    let is_mixed = |&pixel: &usize| {
-        let plan = RegionId::from_label(labels[pixel]).and_then(|region| plans.get(region.index()));
-        !inside[pixel]
-            && plan.is_some_and(RegionPlan::model_fits)
+    let can_be_mixed = |pixel: usize| {
+        fits.get(usize::from(labels[pixel])) == Some(&true)
             && sum_of_bands(unlimited.surface[pixel]) > 0.0
             && !input.masks.distorted(pixel)
     };
-    let mixed: Vec<usize> = (0..labels.len()).into_par_iter().filter(is_mixed).collect();
-    let limits = borders.surface_inside(&mixed, &inside, unlimited);
+    let bands = borders.bands(&can_be_mixed);
+    let inside = borders.inside(BorderKinds::All, &bands);
+    let wanted = bands.par_iter().enumerate().filter(|(_, is_wanted)| **is_wanted);
+    let mixed: Vec<usize> = wanted
+        .flat_map_iter(|(band, _)| {
+            borders.pixels_of(band).filter(|&pixel| !inside[pixel] && can_be_mixed(pixel))
+        })
+        .collect();
+    let limits = borders.surface_inside(&mixed, (&inside, &bands), unlimited);
     let limited = |(&pixel, limit): (&usize, Option<f32>)| {
         let (limit, amount) = (limit?, sum_of_bands(unlimited.surface[pixel]));
         (limit < amount).then(|| LimitedPixel { pixel: PixelIndex::from_index(pixel), kept: limit / amount })
@@ -78,28 +85,49 @@ struct Borders<'a> {
     reach: usize,
 }
 
-/// Number of rows that one task looks at; the task reads the rows within reach of a border in addition.
+/// Number of rows of a band, which one task looks at; the task reads the rows within reach of a border in addition.
 const BAND_ROWS: usize = 64;
 /// Stands for the label of a pixel that is no border, among the smallest labels and among the largest.
 const NO_BORDER: [u16; 2] = [u16::MAX, u16::MIN];
 
 impl Borders<'_> {
-    /// The pixels with no border of a kind within reach: all labels around are the pixel's own, but for pixels that are no border.
-    fn inside(&self, kinds: BorderKinds) -> Mask {
+    /// The pixels of a band of [`BAND_ROWS`] rows.
+    fn pixels_of(&self, band: usize) -> Range<usize> {
+        let pixels = self.labels.width() * BAND_ROWS;
+        band * pixels..((band + 1) * pixels).min(self.labels.len())
+    }
+
+    /// Whether each band has a pixel for which `wanted` is true.
+    fn bands(&self, wanted: &(impl Fn(usize) -> bool + Sync)) -> Vec<bool> {
+        let count = self.labels.height().div_ceil(BAND_ROWS);
+        (0..count).into_par_iter().map(|band| self.pixels_of(band).any(wanted)).collect()
+    }
+
+    /// The pixels with no border of a kind within reach: all labels around are the pixel's own, but for pixels that are no border. Only
+    /// in the `bands` that are wanted, and in those next to them.
+    fn inside(&self, kinds: BorderKinds, bands: &[bool]) -> Mask {
         let (width, height) = (self.labels.width(), self.labels.height());
         let mut inside = Mask::filled(width, height, false);
-        let bands = inside.as_mut_slice().par_chunks_mut((width * BAND_ROWS).max(1)).enumerate();
-        bands.for_each(|(band, inside)| {
+        let is_wanted =
+            |band: usize| bands[band.saturating_sub(1)..(band + 2).min(bands.len())].contains(&true);
+        let rows = inside.as_mut_slice().par_chunks_mut((width * BAND_ROWS).max(1)).enumerate();
+        rows.filter(|(band, _)| is_wanted(*band)).for_each(|(band, inside)| {
             let top = band * BAND_ROWS;
-            let rows = inside.len() / width;
             let first = top.saturating_sub(self.reach);
-            let last = (top + rows + self.reach).min(height);
+            let last = (top + inside.len() / width + self.reach).min(height);
             let across: Vec<[Vec<u16>; 2]> = (first..last).map(|y| self.extremes_across(y, kinds)).collect();
+            let [mut least, mut most] = [vec![0u16; width], vec![0u16; width]];
             for (y, inside) in (top..).zip(inside.chunks_mut(width)) {
                 let near = y.saturating_sub(self.reach)..(y + self.reach + 1).min(height);
-                let near = &across[near.start - first..near.end - first];
-                for (x, (inside, &own)) in inside.iter_mut().zip(self.labels.row(y)).enumerate() {
-                    *inside = near.iter().all(|[least, most]| least[x] >= own && most[x] <= own);
+                least.fill(NO_BORDER[0]);
+                most.fill(NO_BORDER[1]);
+                for [of_row, most_of_row] in &across[near.start - first..near.end - first] {
+                    least.iter_mut().zip(of_row).for_each(|(least, &near)| *least = near.min(*least));
+                    most.iter_mut().zip(most_of_row).for_each(|(most, &near)| *most = near.max(*most));
+                }
+                let extremes = least.iter().zip(&most).zip(self.labels.row(y));
+                for (inside, ((&least, &most), &own)) in inside.iter_mut().zip(extremes) {
+                    *inside = least >= own && most <= own;
                 }
             }
         });
@@ -108,16 +136,15 @@ impl Borders<'_> {
 
     /// The smallest and the largest label within reach along row `y`, without the pixels that are no border.
     fn extremes_across(&self, y: usize, kinds: BorderKinds) -> [Vec<u16>; 2] {
-        let width = self.labels.width();
-        let labels = self.labels.row(y).iter().enumerate();
-        let [least, most] = NO_BORDER;
-        let (smallest, largest): (Vec<u16>, Vec<u16>) = labels
-            .map(
-                |(x, &label)| {
-                    if self.is_no_border(y * width + x, kinds) { (least, most) } else { (label, label) }
-                },
-            )
-            .unzip();
+        let first = y * self.labels.width();
+        let labels = self.labels.row(y);
+        let [mut smallest, mut largest] = [labels.to_vec(), labels.to_vec()];
+        let ends = smallest.iter_mut().zip(&mut largest);
+        for ((least, most), pixel) in ends.zip(first..) {
+            if self.is_no_border(pixel, kinds) {
+                [*least, *most] = NO_BORDER;
+            }
+        }
         [spread(&smallest, self.reach, u16::min), spread(&largest, self.reach, u16::max)]
     }
 
@@ -133,14 +160,19 @@ impl Borders<'_> {
 
     /// Of each of `pixels`, the mean surface reflection, sum of the bands, of the nearest pixels of the same region that are out of
     /// reach of any border, which are `inside`. Where no such pixel lies within `2 * reach + 1` pixels: of the nearest pixels out of
-    /// reach of the borders [`BorderKinds::Lit`]. `None` where neither exists.
-    fn surface_inside(&self, pixels: &[usize], inside: &Mask, images: &Images) -> Vec<Option<f32>> {
+    /// reach of the borders [`BorderKinds::Lit`]. `None` where neither exists. `bands`: those that have the pixels.
+    fn surface_inside(
+        &self,
+        pixels: &[usize],
+        (inside, bands): (&Mask, &[bool]),
+        images: &Images,
+    ) -> Vec<Option<f32>> {
         let mean = |&pixel: &usize| self.nearest_mean(pixel, inside, images);
         let means: Vec<Option<f32>> = pixels.par_iter().map(mean).collect();
         if means.iter().all(Option::is_some) {
             return means;
         }
-        let inside_lit = self.inside(BorderKinds::Lit);
+        let inside_lit = self.inside(BorderKinds::Lit, bands);
         let mean = |pixel: usize| self.nearest_mean(pixel, &inside_lit, images);
         pixels.par_iter().zip(means).map(|(&pixel, found)| found.or_else(|| mean(pixel))).collect()
     }
@@ -218,11 +250,11 @@ mod tests {
         let masks = Masks::new(&image, &limits);
         let labels = LabelMap::from_vec(width, 1, labels.to_vec()).unwrap();
         let borders = Borders { labels: &labels, masks: &masks, reach: 1 };
-        let inside = borders.inside(BorderKinds::All);
+        let inside = borders.inside(BorderKinds::All, &[true]);
         if inside[pixel] {
             return None;
         }
-        borders.surface_inside(&[pixel], &inside, &images)[0]
+        borders.surface_inside(&[pixel], (&inside, &[true]), &images)[0]
     }
 
     proptest! {
@@ -240,7 +272,7 @@ mod tests {
             let labels = LabelMap::from_vec(WIDTH, HEIGHT, labels).unwrap();
             let borders = Borders { labels: &labels, masks: &masks, reach };
             for kinds in [BorderKinds::All, BorderKinds::Lit] {
-                let inside = borders.inside(kinds);
+                let inside = borders.inside(kinds, &[true]);
                 for pixel in 0..labels.len() {
                     let near = |other: &usize| {
                         let [across, down] = [pixel % WIDTH, pixel / WIDTH];

@@ -56,6 +56,9 @@ fn split_from(detail: &Detail, working: &WorkingSplit) -> Intrinsic {
     }
     images.restore(&found.origin, input, detail.labels, &plans, &members);
     limit_surface_at_borders(input, detail.labels, &plans, &mut images);
+    if input.stopped() {
+        return images.unfinished();
+    }
     let explained_mask = explained_mask(detail, working);
     let local = LocalWorkingSplit {
         local: found.local.as_ref(),
@@ -68,6 +71,9 @@ fn split_from(detail: &Detail, working: &WorkingSplit) -> Intrinsic {
     };
     let local_confidence =
         split_locally_at_full_resolution(detail, &local, &explained_mask, is_split, &mut images);
+    if input.stopped() {
+        return images.unfinished();
+    }
     let reports = RegionReports { input, members: &members, kinds: &images.kinds, fit_sigma: found.sigma }
         .of(&plans, touching);
     let finish = Finish {
