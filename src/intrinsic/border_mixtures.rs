@@ -278,9 +278,12 @@ mod tests {
                         let [across, down] = [pixel % WIDTH, pixel / WIDTH];
                         across.abs_diff(other % WIDTH).max(down.abs_diff(other / WIDTH)) <= reach
                     };
-                    let is_no_border = |other: usize| match masks.dark(other) {
-                        true => kinds == BorderKinds::Lit,
-                        false => labels[other] == UNASSIGNED && masks.clipped(other),
+                    let is_no_border = |other: usize| {
+                        if masks.dark(other) {
+                            kinds == BorderKinds::Lit
+                        } else {
+                            labels[other] == UNASSIGNED && masks.clipped(other)
+                        }
                     };
                     let expected = (0..labels.len())
                         .filter(near)
