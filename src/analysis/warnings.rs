@@ -96,7 +96,7 @@ pub(super) fn all_warnings(
     let mut all = match baseline {
         Some(Baseline::ByHand) => marked_warnings(analysis, is_restricted),
         Some(_) if has_regions => vec![RunWarning::RegionsAlone],
-        _ => region_warnings(analysis, &prepared.masks, is_restricted),
+        _ => region_warnings(analysis, &prepared.masks, has_regions, is_restricted),
     };
     all.extend(prepared.noise.coding.as_ref().and_then(compression_warning));
     all.extend(size_warning(labels));
@@ -121,14 +121,17 @@ fn marked_warnings(analysis: &Analysis, is_restricted: bool) -> Vec<RunWarning> 
 }
 
 /// The warnings about regions and light.
-fn region_warnings(analysis: &Analysis, masks: &Masks, is_restricted: bool) -> Vec<RunWarning> {
+fn region_warnings(
+    analysis: &Analysis,
+    masks: &Masks,
+    has_regions: bool,
+    is_restricted: bool,
+) -> Vec<RunWarning> {
     let (labels, planar, used) = (&analysis.finals.labels, &analysis.planar, &analysis.used);
     let mut warnings = Vec::new();
-    let lit = (0..labels.len()).into_par_iter().filter(|&pixel| !masks.dark(pixel)).count();
-    let assigned = labels.as_slice().par_iter().filter(|&&label| label != 0).count();
-    if labels.is_empty() || lit == 0 {
+    if !(0..labels.len()).into_par_iter().any(|pixel| !masks.dark(pixel)) {
         warnings.push(RunWarning::Dark { is_restricted });
-    } else if assigned == 0 {
+    } else if !has_regions {
         warnings.push(RunWarning::NoLinearArea);
     } else if planar.illuminant.is_none() {
         warnings.push(RunWarning::UnknownLight(planar.light));

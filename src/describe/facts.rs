@@ -99,14 +99,12 @@ impl Report {
 
 /// Number of pixels with each reason.
 fn reasons(analysis: &Analysis) -> BTreeMap<String, usize> {
-    const CHUNK: usize = 1 << 16;
     let none = || [0usize; Reason::ALL.len()];
     let counted = |mut counts: [usize; Reason::ALL.len()], &reason: &Reason| {
         counts[reason as usize] += 1;
         counts
     };
-    let sums = analysis.intrinsic.reasons.as_slice().par_chunks(CHUNK);
-    let sums = sums.map(|chunk| chunk.iter().fold(none(), counted));
+    let sums = analysis.intrinsic.reasons.as_slice().par_iter().fold(none, counted);
     let counts = sums.reduce(none, |a, b| std::array::from_fn(|reason| a[reason] + b[reason]));
     Reason::ALL.iter().zip(counts).map(|(reason, count)| (reason.name().to_owned(), count)).collect()
 }

@@ -52,7 +52,7 @@ pub(super) fn limit_surface_at_borders(
             borders.pixels_of(band).filter(|&pixel| !inside[pixel] && can_be_mixed(pixel))
         })
         .collect();
-    let limits = borders.surface_inside(&mixed, (&inside, &bands), unlimited);
+    let limits = borders.surface_inside(&mixed, &inside, &bands, unlimited);
     let limited = |(&pixel, limit): (&usize, Option<f32>)| {
         let (limit, amount) = (limit?, sum_of_bands(unlimited.surface[pixel]));
         (limit < amount).then(|| LimitedPixel { pixel: PixelIndex::from_index(pixel), kept: limit / amount })
@@ -164,7 +164,8 @@ impl Borders<'_> {
     fn surface_inside(
         &self,
         pixels: &[usize],
-        (inside, bands): (&Mask, &[bool]),
+        inside: &Mask,
+        bands: &[bool],
         images: &Images,
     ) -> Vec<Option<f32>> {
         let mean = |&pixel: &usize| self.nearest_mean(pixel, inside, images);
@@ -254,7 +255,7 @@ mod tests {
         if inside[pixel] {
             return None;
         }
-        borders.surface_inside(&[pixel], (&inside, &[true]), &images)[0]
+        borders.surface_inside(&[pixel], &inside, &[true], &images)[0]
     }
 
     proptest! {

@@ -137,10 +137,18 @@ impl Roi {
 
     /// A raster of the rectangle's size whose values are `of` the pixels' indices in the picture, computed in parallel.
     pub fn raster<T: Clone + Default + Send>(&self, of: impl Fn(usize) -> T + Sync) -> Raster<T> {
+        self.raster_by_place(|column, row| of(self.at(column, row)))
+    }
+
+    /// A raster of the rectangle's size whose values are `of` the column and the row in the rectangle, computed in parallel.
+    pub fn raster_by_place<T: Clone + Default + Send>(
+        &self,
+        of: impl Fn(usize, usize) -> T + Sync,
+    ) -> Raster<T> {
         let mut raster = Raster::filled(self.width, self.height, T::default());
         let rows = raster.as_mut_slice().par_chunks_mut(self.width.max(1)).enumerate();
         rows.for_each(|(row, values)| {
-            (self.at(0, row)..).zip(values).for_each(|(pixel, value)| *value = of(pixel));
+            values.iter_mut().enumerate().for_each(|(column, value)| *value = of(column, row));
         });
         raster
     }
@@ -170,6 +178,7 @@ mod tests {
         assert_eq!(tight.raster(|pixel| pixel).as_slice()[5..7], [17, 22]);
         let picture = Raster::from_vec(10, 5, (0..50).collect()).unwrap();
         assert_eq!(tight.crop(&picture), tight.raster(|pixel| pixel));
+        assert_eq!(tight.cropped(picture.clone()), tight.crop(&picture));
     }
 
     #[test]

@@ -63,7 +63,7 @@ impl ChromaticityChanges {
         if !input.refine.chromaticity_prior {
             return Self { roi, of: Raster::default() };
         }
-        let directions = map.raster_by_place(|column, row| {
+        let directions = roi.raster_by_place(|column, row| {
             if map.usable[row * roi.width + column] > 0.0 {
                 direction(input, roi.at(column, row), images)
             } else {
@@ -71,7 +71,7 @@ impl ChromaticityChanges {
             }
         });
         let weights = distance_weights();
-        let of = map.raster_by_place(|column, row| {
+        let of = roi.raster_by_place(|column, row| {
             let (index, pixel) = (row * roi.width + column, roi.at(column, row));
             let (body, surface) = (length(images.body[pixel]), length(images.surface[pixel]));
             let own = directions[index];

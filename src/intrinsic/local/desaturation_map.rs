@@ -70,20 +70,6 @@ impl<'a> DesaturationMap<'a> {
         Raster::from_vec(self.roi.width, self.roi.height, data).unwrap_or_default()
     }
 
-    /// A raster of the window whose values are `of` the column and the row in the window, computed in parallel.
-    pub fn raster_by_place<T: Send + Clone + Default>(
-        &self,
-        of: impl Fn(usize, usize) -> T + Sync,
-    ) -> Raster<T> {
-        let Roi { width, height, .. } = self.roi;
-        let mut raster = Raster::filled(width, height, T::default());
-        let rows = raster.as_mut_slice().par_chunks_mut(width.max(1)).enumerate();
-        rows.for_each(|(row, values)| {
-            values.iter_mut().enumerate().for_each(|(column, value)| *value = of(column, row));
-        });
-        raster
-    }
-
     /// κ and the median of a/c around the pixel at `index` of the window, or those of its region; `None` where no counted pixel of
     /// the picture has the hue or a neighboring hue.
     pub fn ratios(&self, input: &AnalysisInput, index: usize) -> Option<[f32; 2]> {

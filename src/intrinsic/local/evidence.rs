@@ -185,7 +185,7 @@ impl Source<'_> {
             let down = [at(x, (y + 1).min(height - 1)), at(x, y.saturating_sub(1))];
             std::array::from_fn(|k| (across[0][k] - across[1][k]).hypot(down[0][k] - down[1][k]) / 2.0)
         };
-        let gradients = blur(&self.map.raster_by_place(gradient), GRADIENT_MEAN_PX);
+        let gradients = blur(&self.map.roi.raster_by_place(gradient), GRADIENT_MEAN_PX);
         self.map.raster(|index| {
             let [surface, body] = gradients[index];
             (surface / body.max(LEAST_AMOUNT)).clamp(0.2, 20.0).ln()

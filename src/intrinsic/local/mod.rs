@@ -158,7 +158,7 @@ fn split_unexplained<R: Recorder>(
         kept_shares = fade::kept_shares(&repair::unfilled(input, unexplained, &map.roi, &fills));
     }
     let lines = amount_lines(input, map, &amounts, kept_shares.as_ref(), limits.sigma);
-    let amounts = map.raster_by_place(|column, row| {
+    let amounts = map.roi.raster_by_place(|column, row| {
         let (index, pixel) = (row * map.roi.width + column, map.roi.at(column, row));
         // A clipped pixel that is not filled has the surface reflection of the pixels around it.
         let line = lines.line(index).filter(|_| unexplained[pixel]);
@@ -203,7 +203,7 @@ fn weights(
     evidence: Option<(&Evidence, PictureOddsFound)>,
     unexplained: &Mask,
 ) -> Raster<f32> {
-    map.raster_by_place(|column, row| {
+    map.roi.raster_by_place(|column, row| {
         let index = row * map.roi.width + column;
         let found = &map.points[index];
         if !unexplained[map.roi.at(column, row)] {

@@ -84,17 +84,19 @@ fn a_photograph_with_unsaved_work_is_closed_when_that_is_confirmed() {
     }
 }
 
+/// Asks to close the photograph that is shown, and answers that its workspace is to be saved: the dialog for its path opens.
+fn save_and_close(window: &mut Window) {
+    press(window, Modifiers::COMMAND, Key::W);
+    click(window, Role::Button, "Save workspace");
+    window.run_steps(8);
+}
+
 #[test]
 fn a_photograph_is_closed_once_its_workspace_is_saved() {
     let folder = tempfile::tempdir().unwrap();
     let mut window = tiny_window();
     open_sample(&mut window, sample::NAME);
     change(&mut window);
-    let save_and_close = |window: &mut Window| {
-        press(window, Modifiers::COMMAND, Key::W);
-        click(window, Role::Button, "Save workspace");
-        window.run_steps(8);
-    };
     save_and_close(&mut window);
     press(&mut window, Modifiers::NONE, Key::Escape);
     window.run_steps(8);
@@ -116,9 +118,7 @@ fn the_photograph_that_was_asked_about_is_closed_and_no_other() {
     change(&mut window);
     let shown = |window: &Window| state(window).picture.as_ref().map(|picture| picture.origin.name());
     let ask_and_switch = |window: &mut Window| {
-        press(window, Modifiers::COMMAND, Key::W);
-        click(window, Role::Button, "Save workspace");
-        window.run_steps(8);
+        save_and_close(window);
         apply(window, JobCommand::Switch(Switching::Next));
     };
     ask_and_switch(&mut window);
