@@ -5,6 +5,7 @@
 //! [`Observer`] receives the progress, can measure times and may cancel; [`Session::run_traced`] also keeps the record of every
 //! decision.
 
+mod contrast;
 mod full_resolution;
 mod output;
 mod photograph;
@@ -22,6 +23,7 @@ mod working_outputs;
 
 pub use crate::params::Stage;
 pub use crate::segment::Illuminant;
+pub use contrast::ContrastFinding;
 pub use output::StageOutput;
 pub use resolve::NoiseFindings;
 pub use second_look::SecondLookFindings;

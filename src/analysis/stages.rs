@@ -79,7 +79,7 @@ impl Stages {
         observer.finished(Stage::Split, split_reused);
         observer.made(StageOutput::Intrinsic(Arc::clone(&analysis.intrinsic)));
         let restricted = subject.area.is_some();
-        analysis.warnings = all_warnings(&analysis, &prepared, restricted, rules.baseline);
+        analysis.warnings = all_warnings(&subject.image, &analysis, &prepared, restricted, rules.baseline);
         Ok(analysis)
     }
 

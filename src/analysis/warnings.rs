@@ -1,11 +1,12 @@
 //! What is doubtful about a whole run, as data: `describe` has the sentences.
 
 use super::Analysis;
+use super::contrast::{ContrastFinding, contrast_finding};
 use super::prepared::Prepared;
 use crate::baseline::{NoSkewedT, no_skewed_t};
 use crate::color::axis_angle_deg;
 use crate::params::{Baseline, LEAST_LAMPS_ANGLE_DEG};
-use crate::photo::{CodingError, Masks};
+use crate::photo::{CodingError, LinearImage, Masks};
 use crate::raster::LabelMap;
 use crate::segment::LightFindings;
 use rayon::prelude::*;
@@ -57,6 +58,8 @@ pub enum RunWarning {
         /// Whether the run was restricted to an area.
         is_restricted: bool,
     },
+    /// The planes of the regions are bent as by a camera's contrast curve.
+    Contrast(ContrastFinding),
     /// The picture is compressed strongly.
     Compressed {
         /// Standard deviation of the error of its values, in steps of 1/255 of the coded range.
@@ -69,6 +72,10 @@ pub enum RunWarning {
         /// Number of pixels that are enough.
         enough: usize,
     },
+}
+
+fn contrast_warning(image: &LinearImage, analysis: &Analysis) -> Option<RunWarning> {
+    contrast_finding(analysis, image.contrast?, image.saturation?).map(RunWarning::Contrast)
 }
 
 fn compression_warning(coding: &CodingError) -> Option<RunWarning> {
@@ -86,6 +93,7 @@ fn size_warning(labels: &LabelMap) -> Option<RunWarning> {
 /// The warnings about the regions, then about the file's values, then about the size of the picture. `is_restricted`: whether the analysis
 /// is restricted to an area. `baseline`: the earlier method that found the regions.
 pub(super) fn all_warnings(
+    image: &LinearImage,
     analysis: &Analysis,
     prepared: &Prepared,
     is_restricted: bool,
@@ -98,6 +106,9 @@ pub(super) fn all_warnings(
         Some(_) if has_regions => vec![RunWarning::RegionsAlone],
         _ => region_warnings(analysis, &prepared.masks, has_regions, is_restricted),
     };
+    if baseline.is_none() {
+        all.extend(contrast_warning(image, analysis));
+    }
     all.extend(prepared.noise.coding.as_ref().and_then(compression_warning));
     all.extend(size_warning(labels));
     all

@@ -5,6 +5,7 @@ use super::reading::Reading;
 use super::{Outcome, note, print, table};
 use anyhow::{Context, Result, bail};
 use clap::Args;
+use dichroscope::color::ContrastCurve;
 use dichroscope::describe::{Report, Scores};
 use dichroscope::export::{
     is_result_folder, read_report, write_difference, write_foreign_diffuse, write_foreign_labels,
@@ -59,7 +60,12 @@ pub(super) fn run(arguments: &Arguments) -> Result<Outcome> {
     let scores =
         truth.map(|folder| both_scores(arguments, folder, &foreign, &result, &report)).transpose()?;
     if let Some(folder) = &arguments.out
-        && let Err(error) = write(folder, &foreign, &result)
+        && let Err(error) = write(
+            folder,
+            &foreign,
+            &result,
+            arguments.reading.options().encoding.contrast().map(ContrastCurve::new),
+        )
     {
         note(&format!("error: {error:#}"));
         return Ok(Outcome::SomeFailed);
@@ -94,13 +100,19 @@ fn both_scores(
     Ok([foreign.scores(&truth, &camera, report)?, score(&truth, &camera, &outcome)?])
 }
 
-fn write(folder: &Path, foreign: &ForeignResult, result: &ResultPictures) -> Result<()> {
+/// Writes pictures of what was made elsewhere. `contrast`: the camera's contrast curve with which it was read.
+fn write(
+    folder: &Path,
+    foreign: &ForeignResult,
+    result: &ResultPictures,
+    contrast: Option<ContrastCurve>,
+) -> Result<()> {
     std::fs::create_dir_all(folder).with_context(|| format!("cannot make {}", folder.display()))?;
     if let Some(labels) = &foreign.labels {
         write_foreign_labels(&folder.join("labels.png"), labels, &result.regions)?;
     }
     if let Some(diffuse) = &foreign.diffuse {
-        write_foreign_diffuse(&folder.join("diffuse.png"), diffuse)?;
+        write_foreign_diffuse(&folder.join("diffuse.png"), diffuse, contrast)?;
         write_difference(&folder.join("difference.png"), diffuse, &result.body)?;
     }
     Ok(())

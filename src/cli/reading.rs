@@ -7,7 +7,7 @@ use dichroscope::photo::{EncodingChoice, ReadOptions};
 #[derive(Clone, Copy, Debug, Args)]
 #[command(next_help_heading = "Reading")]
 pub(super) struct Reading {
-    /// What the file's values mean: auto (believe the file), linear, srgb or gamma:G
+    /// What the file's values mean: auto (believe the file), linear, srgb, gamma:G, or contrast:C (sRGB and a camera's contrast curve)
     #[arg(long, value_name = "ENCODING", default_value_t)]
     encoding: EncodingChoice,
     /// Counts that the file's full scale stands for [default: 255]

@@ -4,6 +4,7 @@
 
 mod chi_square;
 mod cluster;
+mod contrast;
 mod eigen;
 mod line;
 mod moments;
@@ -11,6 +12,7 @@ mod srgb;
 
 pub use chi_square::ChiSquareThresholds;
 pub use cluster::{ClusterTest, Trial};
+pub use contrast::ContrastCurve;
 pub use eigen::{eigenvalues, principal_axes};
 pub(crate) use line::closest_points;
 pub use line::{Cylinder, Line, OuterSide, RobustFitSettings};

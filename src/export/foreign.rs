@@ -2,6 +2,7 @@
 
 use super::pictures::viewable;
 use super::{ExportError, png, stages};
+use crate::color::ContrastCurve;
 use crate::raster::{LabelMap, Raster};
 use rayon::prelude::*;
 use std::path::Path;
@@ -17,12 +18,17 @@ pub fn write_foreign_labels(path: &Path, labels: &LabelMap, regions: &LabelMap) 
     png::write_rgb(path, &stages::colored_like(labels, regions))
 }
 
-/// Writes a diffuse picture (linear counts) to a PNG, as `body.png` shows body reflection.
+/// Writes a diffuse picture (linear counts) to a PNG, as `body.png` shows body reflection. `contrast`: the camera's contrast curve with which it
+/// was read.
 ///
 /// # Errors
 /// When the file cannot be written.
-pub fn write_foreign_diffuse(path: &Path, diffuse: &Raster<[f32; 3]>) -> Result<(), ExportError> {
-    png::write_rgb(path, &viewable(diffuse))
+pub fn write_foreign_diffuse(
+    path: &Path,
+    diffuse: &Raster<[f32; 3]>,
+    contrast: Option<ContrastCurve>,
+) -> Result<(), ExportError> {
+    png::write_rgb(path, &viewable(diffuse, contrast))
 }
 
 /// Writes a diffuse picture minus the body image of a result to a PNG: gray for 0, black and white for ∓64 counts.

@@ -1,8 +1,9 @@
 //! Writes the pictures of a result folder.
 
-use super::png::code_from_linear;
+use super::png::{code_from_linear, code_with_contrast};
 use super::{ExportError, arrays, floats, png, stages};
 use crate::analysis::Analysis;
+use crate::color::ContrastCurve;
 use crate::photo::{COUNTS_PER_UNIT, LinearImage};
 use crate::raster::{LabelMap, Raster};
 use rayon::prelude::*;
@@ -25,8 +26,10 @@ pub(super) const PICTURES: [(&str, Writer); PICTURE_COUNT] = [
     ("residual.exr", |s, path| floats::write_rgb(path, &residual(s))),
     ("surface.exr", |s, path| floats::write_rgb(path, &s.analysis.intrinsic.surface)),
     ("noise.exr", |s, path| floats::write_single(path, &s.analysis.intrinsic.noise)),
-    ("body.png", |s, path| png::write_rgb(path, &viewable(&s.analysis.intrinsic.body))),
-    ("surface.png", |s, path| png::write_rgb(path, &viewable(&s.analysis.intrinsic.surface))),
+    ("body.png", |s, path| png::write_rgb(path, &viewable(&s.analysis.intrinsic.body, s.image.contrast))),
+    ("surface.png", |s, path| {
+        png::write_rgb(path, &viewable(&s.analysis.intrinsic.surface, s.image.contrast))
+    }),
     ("noise.png", |s, path| png::write_gray(path, &viewable_noise(s.analysis))),
     ("confidence.png", |s, path| png::write_gray(path, &viewable_share(&s.analysis.intrinsic.confidence))),
     ("regions.png", |s, path| png::write_labels(path, &s.analysis.finals.labels)),
@@ -86,9 +89,14 @@ fn residual(input: &PictureInput) -> Raster<[f32; 3]> {
     rest
 }
 
-/// Linear counts as sRGB values; 255 counts and more are white.
-pub(super) fn viewable(counts: &Raster<[f32; 3]>) -> Raster<[u8; 3]> {
-    counts.map(|color| color.map(|value| code_from_linear(value / COUNTS_PER_UNIT)))
+/// Linear counts as sRGB values, with the contrast curve with which the photograph was read; 255 counts and more are white.
+pub(super) fn viewable(counts: &Raster<[f32; 3]>, contrast: Option<ContrastCurve>) -> Raster<[u8; 3]> {
+    match contrast.filter(|curve| curve.contrast() != 1.0) {
+        None => counts.map(|color| color.map(|value| code_from_linear(value / COUNTS_PER_UNIT))),
+        Some(curve) => {
+            counts.map(|color| color.map(|value| code_with_contrast(value / COUNTS_PER_UNIT, &curve)))
+        }
+    }
 }
 
 /// Shares as gray values, 0…1 as 0…255.

@@ -1,7 +1,7 @@
 //! Writes pictures as PNG.
 
 use super::ExportError;
-use crate::color::srgb_from_linear;
+use crate::color::{ContrastCurve, srgb_from_linear};
 use crate::raster::{LabelMap, Raster};
 use png::{BitDepth, ColorType, Compression, EncodingError, SrgbRenderingIntent};
 use std::fs::File;
@@ -61,6 +61,12 @@ pub fn png_of_rgb(values: &Raster<[u8; 3]>) -> Vec<u8> {
         // Writing to memory fails only for a raster without pixels.
         Err(_) => Vec::new(),
     }
+}
+
+/// 8-bit sRGB value of linear light after a camera's contrast curve. 1 and more is white.
+pub(super) fn code_with_contrast(linear: f32, curve: &ContrastCurve) -> u8 {
+    let coded = f64::from(srgb_from_linear(linear.clamp(0.0, 1.0)));
+    (curve.apply(coded) * 255.0).round() as u8
 }
 
 /// 8-bit sRGB value of linear light. 1 and more is white.

@@ -22,7 +22,8 @@ use super::keyboard_focus::is_keyboard_owned;
 use super::status::PROGRESS_DELAY;
 use super::verdict_strip::StepSentence;
 use super::{PanelContext, context_menu, start, verdict_strip, widgets};
-use crate::app::{DebugSettings, ViewCommand};
+use crate::app::{DebugSettings, JobCommand, ViewCommand};
+use crate::photo::ReadOptions;
 use crate::raster::PixelIndex;
 use crate::view::{Arrangement, ArrangementKind, ImageSettings, Item, Layer};
 use cursor::InstantCache;
@@ -284,6 +285,9 @@ impl ImagePanel {
         self.tool_state.handle_pointer(ui, &context, cx, settings);
         navigate(ui, &response, &place, settings);
         self.paint_view(ui, cx, &context, settings, slot, wipe_x);
+        if let (Some(encoding), Some(picture)) = (self.notes.take_wanted_encoding(), &cx.state.picture) {
+            cx.send(JobCommand::ReadAs(ReadOptions { encoding, ..picture.reading }));
+        }
         // A text over the picture does not hide the pixel below.
         if response.secondary_clicked() {
             let pointer = ui.ctx().pointer_latest_pos();

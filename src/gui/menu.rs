@@ -14,11 +14,13 @@ use super::typed_path::unique_names;
 use super::widgets::capitalized;
 use super::{PanelContext, status};
 use crate::app::{JobCommand, StepUnit, Switching};
+use crate::color::ContrastCurve;
 use crate::params::{Method, Params, Preset};
 use crate::photo::{EncodingChoice, FULL_SCALE_COUNTS, ReadOptions};
 use crate::truth::sample::{SAMPLES, THREE_LAMPS};
 use crate::view::{ArrangementKind, ColorSpace, ElsewhereKind, Origin, Theme};
-use egui::{Button, Checkbox, RadioButton, Response, Ui, Widget};
+use egui::accesskit::Role;
+use egui::{Button, Checkbox, RadioButton, Response, Ui, Widget, WidgetInfo};
 
 /// A way to read the photograph's file, which the menu offers.
 pub struct Reading {
@@ -190,6 +192,18 @@ fn read_as(ui: &mut Ui, cx: &mut PanelContext) {
         let states = [now.encoding == reading.encoding, open];
         choice(ui, cx, reading.name, Action::ReadAs(index), states).on_hover_text(reading.tip);
     }
+    ui.horizontal(|ui| {
+        let tip = "sRGB after the contrast curve of a camera: its slope in the middle. Above 1 shadows are darker and lights brighter; 1 is sRGB alone.";
+        ui.label("contrast").on_hover_text(tip);
+        let mut contrast = now.encoding.contrast().unwrap_or(1.0);
+        // The value is typed and not dragged, because each value reads the file again.
+        let field = egui::DragValue::new(&mut contrast).range(ContrastCurve::CONTRASTS).speed(0.0).update_while_editing(false);
+        let field = ui.add(field.fixed_decimals(2)).on_hover_text(tip);
+        field.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, "contrast"));
+        if field.changed() {
+            cx.send(JobCommand::ReadAs(ReadOptions { encoding: EncodingChoice::of_contrast(contrast), ..now }));
+        }
+    });
     ui.separator();
     ui.horizontal(|ui| {
         let tip = "Counts that an integer's maximum or a float's 1.0 stands for; 255 unless the file has head-room.";
@@ -198,9 +212,7 @@ fn read_as(ui: &mut Ui, cx: &mut PanelContext) {
         // The value is typed and not dragged, because each value reads the file again.
         let field = egui::DragValue::new(&mut counts).range(1.0..=1e6).speed(0.0).update_while_editing(false);
         let field = ui.add(field.max_decimals(3).suffix(" counts")).on_hover_text(tip);
-        field.widget_info(|| {
-            egui::WidgetInfo::labeled(egui::accesskit::Role::SpinButton, true, "full scale")
-        });
+        field.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, "full scale"));
         if field.changed() {
             cx.send(JobCommand::ReadAs(ReadOptions { full_scale: Some(counts), ..now }));
         }

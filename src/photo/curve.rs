@@ -1,6 +1,6 @@
 //! Tone curves convert coded values (0 to 1) to linear light (0 to 1); the inverse is found by search.
 
-use crate::color::linear_from_srgb;
+use crate::color::{ContrastCurve, linear_from_srgb, srgb_from_linear};
 use rayon::prelude::*;
 
 /// Relation between the coded values of a file and linear light.
@@ -11,6 +11,8 @@ pub enum ToneCurve {
     Linear,
     /// sRGB curve, IEC 61966-2-1.
     Srgb,
+    /// sRGB curve, and after it the contrast curve of a camera.
+    Contrast(ContrastCurve),
     /// Curve of ITU-R BT.709, BT.601 and BT.2020: the inverse of their camera curve.
     Bt709,
     /// `linear = coded ^ exponent`.
@@ -31,6 +33,7 @@ impl ToneCurve {
         match self {
             Self::Linear => coded,
             Self::Srgb => linear_from_srgb(coded),
+            Self::Contrast(curve) => linear_from_srgb(curve.undo(coded)),
             // H.273, table 3, value 1: the two pieces of the curve meet at 0.018 053 968 510 807 × 4.5.
             Self::Bt709 if coded < 0.081_242_858_298_635 => coded / 4.5,
             Self::Bt709 => ((coded + 0.099_296_826_809_44) / 1.099_296_826_809_44).powf(1.0 / 0.45),
@@ -39,6 +42,16 @@ impl ToneCurve {
             Self::Parametric { c, f, .. } => c * coded + f,
             Self::Table(values) => interpolate(values, coded),
         }
+    }
+
+    /// Whether the curve is that of sRGB within half a step of 8 bits.
+    pub(super) fn is_like_srgb(&self) -> bool {
+        let off = |i: u32| {
+            let coded = f64::from(i) / 64.0;
+            let linear = self.linear(coded).clamp(0.0, 1.0) as f32;
+            (f64::from(srgb_from_linear(linear)) - coded).abs()
+        };
+        *self == Self::Srgb || (0..=64).all(|i| off(i) < 0.5 / 255.0)
     }
 
     /// Whether the curve has an inverse: finite, not negative and not falling from 0 to 1.
@@ -55,6 +68,7 @@ impl ToneCurve {
         match self {
             Self::Linear => "linear".into(),
             Self::Srgb => "sRGB".into(),
+            Self::Contrast(curve) => format!("sRGB with contrast {}", curve.contrast()),
             Self::Bt709 => "BT.709".into(),
             Self::Gamma(exponent) => {
                 let text = format!("{exponent:.3}");
@@ -121,6 +135,7 @@ mod tests {
         vec![
             ToneCurve::Linear,
             ToneCurve::Srgb,
+            ToneCurve::Contrast(ContrastCurve::new(1.3)),
             ToneCurve::Bt709,
             ToneCurve::Gamma(2.2),
             ToneCurve::Parametric {

@@ -4,6 +4,7 @@ use super::curve::ToneCurve;
 use super::format::Format;
 use super::icc;
 use super::source::Source;
+use crate::color::ContrastCurve;
 use std::fmt;
 use std::str::FromStr;
 
@@ -19,6 +20,8 @@ pub enum EncodingChoice {
     Srgb,
     /// `linear = value ^ exponent`, whatever the file states.
     Gamma(f64),
+    /// sRGB after a camera's contrast curve of this contrast ([`ContrastCurve`]), whatever the file states.
+    Contrast(f64),
 }
 
 impl fmt::Display for EncodingChoice {
@@ -28,14 +31,27 @@ impl fmt::Display for EncodingChoice {
             Self::Linear => f.write_str("linear"),
             Self::Srgb => f.write_str("srgb"),
             Self::Gamma(exponent) => write!(f, "gamma:{exponent}"),
+            Self::Contrast(contrast) => write!(f, "contrast:{contrast}"),
         }
+    }
+}
+
+impl EncodingChoice {
+    /// sRGB after a camera's contrast curve of this contrast; sRGB alone for 1.
+    pub fn of_contrast(contrast: f64) -> Self {
+        if contrast == 1.0 { Self::Srgb } else { Self::Contrast(contrast) }
+    }
+
+    /// Contrast of the camera's contrast curve that was chosen.
+    pub fn contrast(self) -> Option<f64> {
+        if let Self::Contrast(contrast) = self { Some(contrast) } else { None }
     }
 }
 
 /// Error: the text is not the name of an encoding.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
-    "`{0}` is no encoding: expected auto, linear, srgb or gamma:G with G from 0.1 to 10 (for example gamma:2.2)"
+    "`{0}` is no encoding: expected auto, linear, srgb, gamma:G with G from 0.1 to 10 (for example gamma:2.2) or contrast:C with C from 0.5 to 2.5 (for example contrast:1.3)"
 )]
 pub struct InvalidEncoding(String);
 
@@ -49,12 +65,12 @@ impl FromStr for EncodingChoice {
             "linear" => Ok(Self::Linear),
             "srgb" => Ok(Self::Srgb),
             other => {
-                let exponent = other.strip_prefix("gamma:").ok_or_else(invalid)?;
-                let exponent = exponent.trim().parse().map_err(|_| invalid())?;
-                if ToneCurve::EXPONENTS.contains(&exponent) {
-                    Ok(Self::Gamma(exponent))
-                } else {
-                    Err(invalid())
+                let (name, number) = other.split_once(':').ok_or_else(invalid)?;
+                let number: f64 = number.trim().parse().map_err(|_| invalid())?;
+                match name {
+                    "gamma" if ToneCurve::EXPONENTS.contains(&number) => Ok(Self::Gamma(number)),
+                    "contrast" if ContrastCurve::CONTRASTS.contains(&number) => Ok(Self::Contrast(number)),
+                    _ => Err(invalid()),
                 }
             }
         }
@@ -82,6 +98,16 @@ impl Encoding {
         self.curves.iter().all(|curve| *curve == ToneCurve::Linear)
     }
 
+    /// The camera's contrast curve with which the file is read, that of contrast 1 for sRGB; `None` for curves that are not the curve of sRGB.
+    pub fn contrast(&self) -> Option<ContrastCurve> {
+        let of = |curve: &ToneCurve| match curve {
+            ToneCurve::Contrast(curve) => Some(*curve),
+            curve => curve.is_like_srgb().then(|| ContrastCurve::new(1.0)),
+        };
+        let bands = self.curves.each_ref().map(of);
+        bands[0].filter(|_| bands[0] == bands[1] && bands[1] == bands[2])
+    }
+
     fn new(curve: ToneCurve, reason: impl Into<String>) -> Self {
         Self { curves: [curve.clone(), curve.clone(), curve], reason: reason.into() }
     }
@@ -94,6 +120,9 @@ impl Encoding {
             EncodingChoice::Linear => Self::new(ToneCurve::Linear, asked),
             EncodingChoice::Srgb => Self::new(ToneCurve::Srgb, asked),
             EncodingChoice::Gamma(exponent) => Self::new(ToneCurve::Gamma(exponent), asked),
+            EncodingChoice::Contrast(contrast) => {
+                Self::new(ToneCurve::Contrast(ContrastCurve::new(contrast)), asked)
+            }
             EncodingChoice::Auto => match said(source) {
                 Some(Ok(encoding)) => encoding,
                 Some(Err(problem)) => {
@@ -186,13 +215,24 @@ mod tests {
 
     #[test]
     fn choices_are_read_as_they_are_written() {
-        for text in ["auto", "linear", "srgb", "gamma:2.2"] {
+        for text in ["auto", "linear", "srgb", "gamma:2.2", "contrast:1.3", "contrast:0.8"] {
             assert_eq!(text.parse::<EncodingChoice>().unwrap().to_string(), text);
         }
         assert_eq!(" sRGB".parse(), Ok(EncodingChoice::Srgb));
-        for text in
-            ["", "gamma", "gamma:", "gamma:x", "gamma:0", "gamma:-1", "gamma:nan", "gamma:inf", "rec709"]
-        {
+        for text in [
+            "",
+            "gamma",
+            "gamma:",
+            "gamma:x",
+            "gamma:0",
+            "gamma:-1",
+            "gamma:nan",
+            "gamma:inf",
+            "rec709",
+            "contrast",
+            "contrast:9",
+            "contrast:nan",
+        ] {
             let message = text.parse::<EncodingChoice>().unwrap_err().to_string();
             assert!(message.contains(&format!("`{text}`")) && message.contains("gamma:2.2"), "{message}");
         }

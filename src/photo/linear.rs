@@ -1,6 +1,7 @@
 //! The linear image, the input of all stages.
 
 use super::coding::CodingError;
+use crate::color::ContrastCurve;
 use crate::raster::{Mask, Raster, Roi};
 use rayon::prelude::*;
 
@@ -25,6 +26,9 @@ pub struct LinearImage {
     pub saturation: Option<f32>,
     /// Error of the values that the file's way of storing them causes; `None`: none but what the measured noise contains.
     pub coding: Option<CodingError>,
+    /// The camera's contrast curve with which integer values were read, that of contrast 1 for the curve of sRGB alone; `None`: the file has
+    /// other values.
+    pub contrast: Option<ContrastCurve>,
 }
 
 impl LinearImage {
@@ -38,7 +42,7 @@ impl LinearImage {
                 (*pixel, *invalid) = ([0.0; 3], true);
             }
         });
-        Self { pixels, invalid, saturation, coding: None }
+        Self { pixels, invalid, saturation, coding: None, contrast: None }
     }
 
     /// The same image, stored in a way that makes `coding` of error.
@@ -47,15 +51,22 @@ impl LinearImage {
         Self { coding, ..self }
     }
 
+    /// The same image, read with a camera's contrast curve; see [`Self::contrast`].
+    #[must_use]
+    pub fn with_contrast(self, contrast: Option<ContrastCurve>) -> Self {
+        Self { contrast, ..self }
+    }
+
     /// The part of the image in a rectangle.
     #[must_use]
     pub(crate) fn cropped(&self, roi: &Roi) -> Self {
-        let Self { pixels, invalid, saturation, coding } = self;
+        let Self { pixels, invalid, saturation, coding, contrast } = self;
         Self {
             pixels: roi.crop(pixels),
             invalid: roi.crop(invalid),
             saturation: *saturation,
             coding: coding.clone(),
+            contrast: *contrast,
         }
     }
 

@@ -178,7 +178,9 @@ pub fn decode(bytes: &[u8], name_hint: &str, options: &ReadOptions) -> Result<Ph
             f64::from(largest) / full_scale
         ));
     }
-    let image = Arc::new(LinearImage::new(pixels, saturation).with_coding(coding));
+    let contrast = source.max.and_then(|_| encoding.contrast());
+    let image = LinearImage::new(pixels, saturation).with_coding(coding).with_contrast(contrast);
+    let image = Arc::new(image);
     warnings.extend(pixel_warnings(&source, &image, huge));
     Ok(Photo { name: name_hint.to_owned(), image, source, encoding, full_scale, warnings })
 }

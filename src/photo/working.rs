@@ -72,7 +72,7 @@ fn means(image: &LinearImage, masks: &Masks, limits: &MaskLimits, blocks: &Block
             }
         },
     );
-    LinearImage { pixels, invalid, saturation: image.saturation, coding: None }
+    LinearImage { pixels, invalid, saturation: image.saturation, coding: None, contrast: image.contrast }
 }
 
 /// The usable pixels of one block.

@@ -150,7 +150,7 @@ pub fn paint_against(
         Some(shown) if shown.is_of_working_picture() => &shown.analysis.working.image.pixels,
         _ => &picture.photo.image.pixels,
     };
-    let base = Base { photo, curve: Curve::new(look.exposure_ev, look.gamma) };
+    let base = Base { photo, curve: Curve::new(look.exposure_ev, picture.photo.image.contrast, look.gamma) };
     match shown.filter(fits) {
         None => base.light(base.photo),
         Some(shown) => {

@@ -48,7 +48,7 @@ pub(crate) fn ply(mask: &Mask, picture: &Picture) -> Vec<u8> {
          property uchar red\nproperty uchar green\nproperty uchar blue\nend_header\n"
     )
     .into_bytes();
-    let curve = Curve::new(0.0, 1.0);
+    let curve = Curve::new(0.0, picture.photo.image.contrast, 1.0);
     for pixel in (0..mask.len()).filter(|&pixel| mask[pixel]) {
         let counts = picture.photo.image.pixels[pixel];
         bytes.extend(counts.iter().flat_map(|counts| counts.to_le_bytes()));

@@ -2,10 +2,11 @@
 
 use crate::common::{analyze, srgb};
 use crate::synthetic::{Random, Rendered, Scene};
-use dichroscope::analysis::{Analysis, Session};
+use dichroscope::analysis::{Analysis, RunWarning, Session};
+use dichroscope::color::ContrastCurve;
 use dichroscope::describe::sentences;
 use dichroscope::params::Params;
-use dichroscope::photo::{CodingCause, LinearImage, ReadOptions, decode};
+use dichroscope::photo::{CodingCause, EncodingChoice, LinearImage, ReadOptions, decode};
 use dichroscope::segment::LightBasis;
 use dichroscope::trace::{Event, HistoryKind};
 use image::codecs::jpeg::JpegEncoder;
@@ -186,4 +187,48 @@ fn strong_compression_and_few_pixels_are_warned_of() {
     assert!(!warned(&reread(&jpeg(&rendered, 90)), "compressed so strongly"));
     let small = Scene::grid_of_balls([90, 60], 1, 1, 8).render().image;
     assert!(warned(&small, "has only 5400 pixels") && !warned(&rendered, "pixels: windows"));
+}
+
+/// The 8-bit picture of a camera with a contrast curve, read with another one.
+fn contrasted(image: &LinearImage, camera: f64, read_with: EncodingChoice) -> LinearImage {
+    let curve = ContrastCurve::new(camera);
+    let curved = |code: u8| (255.0 * curve.apply(f64::from(code) / 255.0)).round() as u8;
+    let codes: Vec<u8> = srgb(image).into_iter().map(curved).collect();
+    let mut file = Vec::new();
+    PngEncoder::new(&mut file)
+        .write_image(&codes, image.width() as u32, image.height() as u32, ExtendedColorType::Rgb8)
+        .unwrap();
+    let options = ReadOptions { encoding: read_with, ..ReadOptions::default() };
+    Arc::unwrap_or_clone(decode(&file, "photo.png", &options).unwrap().image)
+}
+
+/// The contrasts that the warnings of a run tell of.
+fn told_contrasts(analysis: &Analysis) -> Vec<f64> {
+    let told = |warning: &RunWarning| match warning {
+        RunWarning::Contrast(found) => Some(found.contrast),
+        _ => None,
+    };
+    analysis.warnings.iter().filter_map(told).collect()
+}
+
+#[test]
+fn the_contrast_curve_of_a_camera_is_told_and_undone_where_it_is_given() {
+    let image = balls().render().image;
+    let told_with = |camera, read_with| {
+        let analysis = analyze(&contrasted(&image, camera, read_with), &Params::default());
+        (told_contrasts(&analysis), off_white_deg(&analysis))
+    };
+    let (told, bent_deg) = told_with(1.3, EncodingChoice::Auto);
+    assert!(told.len() == 1 && (told[0] - 1.3).abs() < 0.05, "{told:?}");
+    let (told, off_deg) = told_with(1.3, EncodingChoice::Contrast(1.3));
+    assert!(
+        told.is_empty() && off_deg < 0.5 && off_deg < bent_deg,
+        "{told:?}, {off_deg} degrees, before {bent_deg}"
+    );
+    assert!(told_with(1.0, EncodingChoice::Auto).0.is_empty(), "sRGB alone");
+    let (told, _) = told_with(1.0, EncodingChoice::Contrast(1.3));
+    assert!(
+        told.len() == 1 && (told[0] - 1.0).abs() < 0.05,
+        "read with a contrast that the camera has not: {told:?}"
+    );
 }

@@ -1,6 +1,6 @@
 //! The warnings about a run and about its regions, a sentence each.
 
-use crate::analysis::RunWarning;
+use crate::analysis::{ContrastFinding, RunWarning};
 use crate::baseline::{LEAST_MARKED_PX, NoSkewedT};
 use crate::describe::light_words::light_reason;
 use crate::describe::with_grouped_numbers;
@@ -58,6 +58,15 @@ impl fmt::Display for RunWarning {
                  {limit_counts:.1}; they are not split",
                 marked(is_restricted)
             ),
+            Self::Contrast(found) => {
+                let ContrastFinding { contrast, sd, read_with, regions } = found;
+                let encoding = found.encoding();
+                write!(
+                    f,
+                    "the colors of {regions} regions are bent as by a camera's contrast curve of contrast {contrast:.2} \u{b1} {sd:.2}, and the file was read with \
+                     {read_with:.2}: the encoding `{encoding}` makes the light and the highlights more exact"
+                )
+            }
             Self::Compressed { code_values } => write!(
                 f,
                 "the picture is compressed so strongly that its values are off by {code_values:.1} code values (standard deviation): the \
@@ -227,6 +236,15 @@ mod tests {
         assert!(noise.contains("only 12.0\u{b0} apart") && noise.ends_with("noise 5 times"), "{noise}");
         let inside = AngleWarning::InCylinder { angle_deg: 4.0, extent_counts: 100.0, least_deg: 5.74 };
         assert!(inside.to_string().contains("100 counts needs 5.7\u{b0}"), "{inside}");
+    }
+
+    #[test]
+    fn a_contrast_curve_is_told_with_the_encoding_that_undoes_it() {
+        let found = ContrastFinding { contrast: 1.318, sd: 0.03, read_with: 1.0, regions: 5 };
+        let told = RunWarning::Contrast(found).to_string();
+        assert!(told.contains("contrast 1.32 \u{b1} 0.03") && told.contains("`contrast:1.32`"), "{told}");
+        let none = ContrastFinding { contrast: 1.001, read_with: 1.3, ..found };
+        assert!(RunWarning::Contrast(none).to_string().contains("`srgb`"));
     }
 
     #[test]

@@ -3,9 +3,10 @@
 use crate::window::{
     SIZE, Window, apply, at, click, named, region, says, shown, size, state, tiny, with_state, words, zoom_in,
 };
-use dichroscope::analysis::{Analysis, Observer, RunWarning, Session, Stage};
+use dichroscope::analysis::{Analysis, ContrastFinding, Observer, RunWarning, Session, Stage};
 use dichroscope::app::{Application, Debugger, Edit, Executor, JobCommand, Preview, State, ViewCommand};
 use dichroscope::params::{Parameter, Params, Setting};
+use dichroscope::photo::EncodingChoice;
 use dichroscope::raster::{Blocks, PixelIndex, Raster};
 use dichroscope::view::{
     ACCENT, Arrangement, ImageSettings, Item, Layer, Origin, Picture, ResultSnapshot, Selection, paint,
@@ -93,19 +94,36 @@ fn the_time_of_an_analysis_is_told_when_all_of_its_stages_are_there() {
     }
 }
 
-#[test]
-fn a_note_over_the_picture_can_be_dismissed() {
+/// The window with a result that has a warning.
+fn with_warning(warning: RunWarning) -> Option<Window> {
     let mut state_before = state_with_preview();
     state_before.preview = None;
     let before = state_before.newest.take().unwrap();
     let mut analysis = before.analysis.clone();
-    analysis.warnings = vec![RunWarning::SecondLampIdle];
+    analysis.warnings = vec![warning];
     let picture = Arc::clone(&before.picture);
     let mut newest = ResultSnapshot::new(picture, before.params, analysis, before.region_colors.clone());
     newest.generation = state_before.generation;
     state_before.newest = Some(Arc::new(newest));
-    let Some(mut window) = with_state(SIZE, state_before) else { return };
+    let mut window = with_state(SIZE, state_before)?;
     window.run_steps(2);
+    Some(window)
+}
+
+#[test]
+fn the_note_about_a_contrast_curve_reads_the_file_with_it() {
+    let found = ContrastFinding { contrast: 1.318, sd: 0.02, read_with: 1.0, regions: 5 };
+    let Some(mut window) = with_warning(RunWarning::Contrast(found)) else { return };
+    click(&mut window, Role::Button, "Read the file as contrast:1.32");
+    window.run_steps(4);
+    let reading = state(&window).picture.as_ref().unwrap().reading;
+    assert_eq!(reading.encoding, EncodingChoice::Contrast(1.32));
+    assert!(window.query_by_role_and_label(Role::Button, "Read the file as contrast:1.32").is_none());
+}
+
+#[test]
+fn a_note_over_the_picture_can_be_dismissed() {
+    let Some(mut window) = with_warning(RunWarning::SecondLampIdle) else { return };
     let image = state(&window).view.image.clone();
     apply(
         &mut window,
