@@ -164,14 +164,9 @@ impl<'a> ByWorkingPicture<'a> {
         working_pixel: usize,
         nearest: &Nearest,
     ) -> Option<PixelSplit> {
-        let Lamp { gain, per_amount } = self.local.lamps.of(working_pixel);
-        let a = gain.mean(color);
-        let found = |cell: &Cell| Some([cell.line?.amount(a), cell.confidence]);
-        let [amount, confidence] = nearest.mean(|pixel| found(&self.cells[pixel]))?;
-        if amount <= 0.0 {
-            return None;
-        }
-        let moved = Moved::new(color, amount, per_amount);
+        let lamp = self.local.lamps.of(working_pixel);
+        let [amount, confidence] = self.amount(color, lamp, nearest)?;
+        let moved = Moved::new(color, amount, &lamp.per_amount);
         let mut body = moved.body_below(limit);
         if let Some(change) = nearest.mean(|pixel| self.cells[pixel].change) {
             body = changed(body, change, limit);
@@ -179,11 +174,21 @@ impl<'a> ByWorkingPicture<'a> {
         Some(PixelSplit { body, surface: moved.surface, confidence })
     }
 
+    /// The amount of surface reflection of a color under a lamp by the lines of the nearest working pixels, counts of J, and the confidence in
+    /// it; none where there is no surface reflection.
+    fn amount(&self, color: [f32; 3], lamp: &Lamp, nearest: &Nearest) -> Option<[f32; 2]> {
+        let a = lamp.gain.mean(color);
+        let found = |cell: &Cell| Some([cell.line?.amount(a), cell.confidence]);
+        nearest.mean(|pixel| found(&self.cells[pixel])).filter(|[amount, _]| *amount > 0.0)
+    }
+
     /// The split of a clipped pixel that is neither restored nor filled, by the surface reflection around it: a guess without confidence.
     /// None where there is no surface reflection.
     fn like_around(&self, color: [f32; 3], working_pixel: usize, nearest: &Nearest) -> Option<PixelSplit> {
-        let found = self.split(color, color, working_pixel, nearest)?;
-        Some(PixelSplit { confidence: 0.0, ..found })
+        let lamp = self.local.lamps.of(working_pixel);
+        let [amount, _] = self.amount(color, lamp, nearest)?;
+        let Moved { surface, body } = Moved::of_clipped(color, amount, lamp);
+        Some(PixelSplit { body, surface, confidence: 0.0 })
     }
 
     /// The split of a clipped pixel by the body reflection with which the working picture was filled; none where it was not filled.

@@ -48,6 +48,7 @@ use desaturation_map::DesaturationMap;
 use evidence::Evidence;
 use guided::AmountLines;
 use hue_restoration::Hues;
+use lamps::Lamp;
 use rayon::prelude::*;
 use trace_writer::LocalTraceWriter;
 
@@ -278,7 +279,12 @@ fn move_surface(
         let found = weights.row(row).iter().zip(amounts.row(row));
         for (x, (&weight, &amount)) in (roi.left..).zip(found).filter(|(_, (_, amount))| **amount > 0.0) {
             let pixel = (roi.top + row) * width + x;
-            let moved = Moved::new(input.pixels[pixel], amount, &map.lamps.of(pixel).per_amount);
+            let (color, lamp) = (input.pixels[pixel], map.lamps.of(pixel));
+            let moved = if input.masks.clipped(pixel) {
+                Moved::of_clipped(color, amount, lamp)
+            } else {
+                Moved::new(color, amount, &lamp.per_amount)
+            };
             (body[x], surface[x]) = (moved.body_below(original.pixels[pixel]), moved.surface);
             if weight > 0.0 && kinds[x] != PixelKind::Unassigned {
                 let is_restored = original.masks.clipped(pixel);
@@ -304,6 +310,15 @@ impl Moved {
     fn new(color: [f32; 3], amount: f32, per_amount: &[f32; 3]) -> Self {
         let surface: [f32; 3] =
             std::array::from_fn(|band| (amount * per_amount[band]).min(color[band].max(0.0)));
+        Self { surface, body: std::array::from_fn(|band| color[band] - surface[band]) }
+    }
+
+    /// The split of a clipped `color` with the `amount` of surface reflection, counts of J. What clipping has left of the light has another hue than
+    /// the light, so that the surface reflection has the color's own hue: the light's would leave its complement.
+    #[inline]
+    fn of_clipped(color: [f32; 3], amount: f32, lamp: &Lamp) -> Self {
+        let share = (amount / lamp.gain.mean(color).max(f32::MIN_POSITIVE)).clamp(0.0, 1.0);
+        let surface = color.map(|value| share * value.max(0.0));
         Self { surface, body: std::array::from_fn(|band| color[band] - surface[band]) }
     }
 

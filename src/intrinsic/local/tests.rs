@@ -190,3 +190,23 @@ proptest! {
         }
     }
 }
+
+proptest! {
+    #[test]
+    fn a_clipped_color_keeps_its_hue_and_loses_the_amount(
+        color in prop::array::uniform3(1f32..255.0),
+        share in 0f32..1.2,
+    ) {
+        let lamp = Lamp::new(&Vec3::new(0.7, 0.6, 0.4).normalize()).unwrap();
+        let a = lamp.gain.mean(color);
+        let Moved { surface, body } = Moved::of_clipped(color, share * a, &lamp);
+        for band in 0..3 {
+            prop_assert!((body[band] + surface[band] - color[band]).abs() < 1e-4);
+            prop_assert!(body[band] >= -1e-4);
+            // The ratio of two bands stays.
+            prop_assert!((body[band] * color[0] - body[0] * color[band]).abs() < 1e-3 * color[0] * color[band]);
+        }
+        let left = (a - share * a).max(0.0);
+        prop_assert!((lamp.gain.mean(body) - left).abs() < 1e-3 * a.max(1.0));
+    }
+}
