@@ -1,4 +1,4 @@
-//! The worker that analyzes. A newer request replaces a waiting request and cancels the request under way.
+//! The worker that analyzes. A newer request replaces a waiting request and cancels the request under way; a person can cancel both.
 
 use super::Preview;
 use super::panics::catch_panic;
@@ -48,7 +48,18 @@ pub(super) struct LatestRequest {
 #[derive(Default)]
 struct Waiting {
     request: Option<AnalysisRequest>,
+    /// Number of the newest request that a person canceled.
+    canceled: Option<u64>,
     closed: bool,
+}
+
+/// The reason why a run is to end before its result.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Interruption {
+    /// A newer request waits.
+    Newer,
+    /// A person canceled the run, or the worker is to stop.
+    Stop,
 }
 
 impl LatestRequest {
@@ -56,6 +67,13 @@ impl LatestRequest {
     pub(super) fn submit(&self, request: AnalysisRequest) {
         self.lock().request = Some(request);
         self.arrived.notify_one();
+    }
+
+    /// Cancels the request with this number, whether it waits or is under way, and all before.
+    pub(super) fn cancel(&self, generation: u64) {
+        let mut waiting = self.lock();
+        waiting.request.take_if(|request| request.generation <= generation);
+        waiting.canceled = Some(generation);
     }
 
     /// Makes the worker stop: [`LatestRequest::take`] returns none from now on.
@@ -89,6 +107,16 @@ impl LatestRequest {
     fn is_superseded(&self) -> bool {
         let waiting = self.lock();
         waiting.closed || waiting.request.is_some()
+    }
+
+    /// Why the run of the request with this number is to end; none where it is to go on.
+    fn interruption(&self, generation: u64) -> Option<Interruption> {
+        let waiting = self.lock();
+        if waiting.closed || waiting.canceled.is_some_and(|canceled| generation <= canceled) {
+            Some(Interruption::Stop)
+        } else {
+            waiting.request.as_ref().map(|_| Interruption::Newer)
+        }
     }
 
     /// The waiting request, also after a panic of another thread.
@@ -128,9 +156,11 @@ fn analyze_request(
     send: &(dyn Fn(Report) + Sync),
     wake: &(dyn Fn() + Send + Sync),
 ) {
-    let superseded = || latest_request.is_superseded();
-    let Some(shown) = analysis_worker.analyze(request, send, &superseded) else { return };
+    let interrupted = || latest_request.interruption(request.generation);
+    let Some(shown) = analysis_worker.analyze(request, send, &interrupted) else { return };
     send(Report::Analyzed(Arc::clone(&shown)));
+    // A result that came before its cancellation is recorded like any other.
+    let superseded = || latest_request.is_superseded();
     if request.tracing == Tracing::AtOnce {
         analysis_worker.trace(request, &shown, send, &superseded);
     }
@@ -157,12 +187,12 @@ pub(super) struct AnalysisWorker {
 }
 
 impl AnalysisWorker {
-    /// Analyzes; none when the request was overtaken.
+    /// Analyzes; none when the request was overtaken or canceled.
     pub(super) fn analyze(
         &mut self,
         request: &AnalysisRequest,
         send: &(dyn Fn(Report) + Sync),
-        superseded: &(dyn Fn() -> bool + Sync),
+        interrupted: &(dyn Fn() -> Option<Interruption> + Sync),
     ) -> Option<Arc<ResultSnapshot>> {
         let same = |session: &(Arc<Picture>, Session)| Arc::ptr_eq(&session.0, &request.picture);
         if !self.session.as_ref().is_some_and(same) {
@@ -186,7 +216,7 @@ impl AnalysisWorker {
             last_preview: self.last_preview.as_ref(),
             preview: None,
             send,
-            superseded,
+            interrupted,
         };
         let run = if request.tracing == Tracing::AtOnce {
             let run = session.run_traced(&request.params, &mut observer);
@@ -289,7 +319,7 @@ struct RunObserver<'a> {
     /// The result for the working picture of this run; none where the working picture is the photograph.
     preview: Option<Preview>,
     send: &'a (dyn Fn(Report) + Sync),
-    superseded: &'a (dyn Fn() -> bool + Sync),
+    interrupted: &'a (dyn Fn() -> Option<Interruption> + Sync),
 }
 
 impl Observer for RunObserver<'_> {
@@ -355,6 +385,67 @@ impl Observer for RunObserver<'_> {
     }
 
     fn cancelled(&self) -> bool {
-        !self.must_show && (self.superseded)()
+        match (self.interrupted)() {
+            Some(Interruption::Stop) => true,
+            Some(Interruption::Newer) => !self.must_show,
+            None => false,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::read;
+    use crate::photo::ReadOptions;
+    use crate::view::Origin;
+
+    #[test]
+    fn a_cancellation_ends_the_requests_so_far_and_no_later_one() {
+        let sample = Origin::Sample(crate::truth::sample::NAME.to_owned());
+        let picture = Arc::new(read::picture(sample, ReadOptions::default()).unwrap());
+        let request = |generation| AnalysisRequest {
+            generation,
+            picture: Arc::clone(&picture),
+            params: Params::default(),
+            area: None,
+            tracing: Tracing::Never,
+        };
+        let latest_request = LatestRequest::default();
+        latest_request.submit(request(1));
+        let taken = latest_request.take().unwrap();
+        assert_eq!(latest_request.interruption(taken.generation), None);
+        latest_request.submit(request(2));
+        assert_eq!(latest_request.interruption(1), Some(Interruption::Newer));
+        latest_request.cancel(2);
+        assert!(!latest_request.is_superseded(), "the request that waited is canceled too");
+        assert_eq!(latest_request.interruption(1), Some(Interruption::Stop));
+        latest_request.submit(request(3));
+        assert_eq!(
+            latest_request.interruption(1),
+            Some(Interruption::Stop),
+            "at once, and not for the newer one"
+        );
+        assert_eq!(latest_request.take().unwrap().generation, 3);
+        assert_eq!(latest_request.interruption(3), None);
+        latest_request.close();
+        assert_eq!(latest_request.interruption(3), Some(Interruption::Stop));
+    }
+
+    #[test]
+    fn a_canceled_analysis_ends_before_it_shows_a_stage() {
+        let sample = Origin::Sample(crate::truth::sample::NAME.to_owned());
+        let picture = Arc::new(read::picture(sample, ReadOptions::default()).unwrap());
+        let mut worker = AnalysisWorker::default();
+        let mut request = AnalysisRequest {
+            generation: 1,
+            picture,
+            params: Params::default(),
+            area: None,
+            tracing: Tracing::Never,
+        };
+        assert!(worker.analyze(&request, &|_| {}, &|| None).is_some());
+        request.params.camera_noise = crate::params::Setting::Value(4.0);
+        assert!(worker.analyze(&request, &|_| {}, &|| Some(Interruption::Stop)).is_none());
     }
 }

@@ -134,6 +134,11 @@ impl Application {
         match effect {
             Effect::Analyze => self.analyze(self.tracing()),
             Effect::Trace => self.analyze(Tracing::AtOnce),
+            Effect::CancelAnalysis => {
+                if let Workers::Threads { latest_request, .. } = &self.workers {
+                    latest_request.cancel(self.state.generation);
+                }
+            }
             Effect::Read(origin, options) => {
                 self.state.jobs.reading = Some(Job::now());
                 self.run("reader", Work::Photograph, move || match read::picture(origin, options) {
@@ -220,7 +225,7 @@ impl Application {
                     let _ = outbox.lock().unwrap_or_else(PoisonError::into_inner).send(report);
                 };
                 let run = catch_panic(|| {
-                    if let Some(shown) = analysis_worker.analyze(&request, &send, &|| false) {
+                    if let Some(shown) = analysis_worker.analyze(&request, &send, &|| None) {
                         shown.measure();
                         send(Report::Analyzed(Arc::clone(&shown)));
                         analysis_worker.trace(&request, &shown, &send, &|| false);

@@ -154,6 +154,10 @@ pub enum JobCommand {
     LoadParams(PathBuf),
     /// Write a file or a folder.
     Export(Export),
+    /// Analyze the open photograph with the present parameters.
+    Analyze,
+    /// Cancel the analysis under way. The last complete result stays.
+    CancelAnalysis,
     /// Stop the export under way.
     CancelExport,
     /// Show the sentence about a panic of the window, and save the workspace beside the photograph.

@@ -12,6 +12,8 @@ pub enum Effect {
     Analyze,
     /// Record the decisions of that analysis.
     Trace,
+    /// Cancel the analysis under way.
+    CancelAnalysis,
     /// Search the parameters that would give a pixel another region.
     FindWhatIf(WhatIfRequest),
     /// Stop that search.

@@ -39,6 +39,8 @@ pub(super) struct ExportInput {
     pub(super) elsewhere: Option<Arc<Elsewhere>>,
     /// Whether the result that the window shows is being computed anew.
     pub(super) is_analyzing: bool,
+    /// Whether the result that the window shows, if any, belongs to other parameters, as the analysis was canceled.
+    pub(super) lacks_result: bool,
     pub(super) document: Document,
     /// The settings of the image view.
     pub(super) image: ImageSettings,
@@ -59,6 +61,7 @@ impl ExportInput {
             pinned: state.pinned.clone(),
             elsewhere: state.elsewhere.clone(),
             is_analyzing: state.awaits_result(),
+            lacks_result: state.lacks_result() && !state.shows_pinned(),
             document: state.document.clone(),
             image: state.view.image.clone(),
             selected_region: state.selected_region(),

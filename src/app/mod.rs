@@ -54,7 +54,7 @@ pub use photographs::{OpenPhotograph, Switching};
 pub use preview::Preview;
 pub use reduce::reduce;
 pub use settings::Settings;
-pub use state::{Notice, Severity, State};
+pub use state::{NOT_ANALYZED, Notice, Severity, State};
 pub use view_settings::ViewSettings;
 pub use what_if_job::{Question, WhatIfJob, WhatIfProgress, WhatIfRequest};
 pub use workspace::{Workspace, is_workspace};

@@ -29,6 +29,8 @@ pub fn reduce(state: &mut State, command: impl Into<Command>) -> Vec<Effect> {
 }
 
 #[cfg(test)]
+mod cancel_tests;
+#[cfg(test)]
 mod elsewhere_tests;
 #[cfg(test)]
 mod files_tests;

@@ -145,8 +145,10 @@ fn shown(input: &ExportInput) -> Result<&ResultSnapshot, String> {
         _ if input.is_analyzing => {
             Err("nothing to export yet: the analysis is still under way; try again when it has ended".into())
         }
-        Some(shown) if shown.stale_from.is_none() => Ok(shown),
-        _ => Err("nothing to export: the analysis gave no result; change a parameter to run it again".into()),
+        Some(shown) if shown.stale_from.is_none() && !input.lacks_result => Ok(shown),
+        _ => Err(
+            "nothing to export: there is no result for the present parameters; analyze now (F5), and try again".into(),
+        ),
     }
 }
 

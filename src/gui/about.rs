@@ -1,5 +1,5 @@
 //! Which result a panel is about: told on its tab while the pinned result is shown, and over the panel while a newer result is being
-//! computed.
+//! computed or its computation was canceled.
 
 use super::PanelContext;
 use super::status::is_work_shown;
@@ -31,25 +31,28 @@ impl About {
         }
     }
 
-    /// Whether the panel shows the result before, while the newer one takes long to compute.
-    fn is_older(self, state: &State) -> bool {
+    /// What is told over the panel; none where the panel shows the result for the present parameters, or a newer one appears at once.
+    fn note(self, state: &State) -> Option<&'static str> {
         let can_be_older = match self {
             Self::Shown => !state.shows_pinned(),
             Self::Newest => true,
             Self::Request | Self::None => false,
         };
         let takes_long = state.preview.is_some() || is_work_shown(state.jobs.analysis.as_ref());
-        can_be_older && takes_long && state.newest.is_some() && !state.is_current()
+        if !can_be_older || state.newest.is_none() || state.is_current() {
+            None
+        } else if state.lacks_result() {
+            Some("the result before \u{b7} of other parameters")
+        } else {
+            takes_long.then_some("the result before \u{b7} computing\u{2026}")
+        }
     }
 
     /// Dims a panel that shows the result before, and says so in its lower right corner. `ground`: the color of the panel.
     pub fn mark(self, ui: &Ui, cx: &PanelContext, ground: Color32) {
-        if cx.is_export || !self.is_older(cx.state) {
-            return;
-        }
+        let Some(text) = self.note(cx.state).filter(|_| !cx.is_export) else { return };
         let (painter, full) = (ui.painter(), ui.max_rect());
         painter.rect_filled(full, 0.0, ground.gamma_multiply(0.45));
-        let text = "the result before \u{b7} computing\u{2026}";
         let font = FontId::proportional(SMALL_PT);
         let galley = painter.layout_no_wrap(text.to_owned(), font, cx.palette.text);
         let place = full.right_bottom() - vec2(8.0, 8.0);

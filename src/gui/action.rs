@@ -75,6 +75,10 @@ pub enum Action {
     AnalyzeMarked,
     /// Analyze the whole picture again.
     AnalyzeAll,
+    /// Analyze with the present parameters.
+    Analyze,
+    /// Cancel the analysis under way.
+    CancelAnalysis,
     /// Analyze by a method.
     Method(Method),
     /// Take the parameters of a column of table 6.

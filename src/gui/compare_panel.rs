@@ -2,8 +2,8 @@
 
 use super::background_value::{BackgroundValue, SYNCHRONOUS_PX};
 use super::theme::SMALL_PT;
-use super::{PanelContext, elsewhere_section::ElsewhereSection, widgets};
-use crate::app::{Command, DebugCommand, Difference, Edit, ViewCommand};
+use super::{PanelContext, elsewhere_section::ElsewhereSection, lacking_result, widgets};
+use crate::app::{Command, DebugCommand, Difference, Edit, NOT_ANALYZED, ViewCommand};
 use crate::describe::Names;
 use crate::raster::RegionId;
 use crate::view::{Comparison, ImageSettings, Item, Layer, RegionChange, compare};
@@ -80,9 +80,12 @@ fn found_tables(ui: &mut Ui, cx: &mut PanelContext, found: &Comparison) {
 
 /// Shows, while no result is pinned, a sentence about the panel and the button that pins a result.
 fn pin_hint(ui: &mut Ui, cx: &mut PanelContext) {
-    ui.label(
-        RichText::new("Pin this result, change a slider, and see what changed.").color(cx.palette.secondary),
-    );
+    let text = if lacking_result::has_none(cx.state) {
+        NOT_ANALYZED
+    } else {
+        "Pin this result, change a slider, and see what changed."
+    };
+    ui.label(RichText::new(text).color(cx.palette.secondary));
     let ready = cx.state.newest.is_some();
     if ui.add_enabled(ready, egui::Button::new("Pin this result (K)")).clicked() {
         cx.send(ViewCommand::Pin(true));

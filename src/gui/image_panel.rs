@@ -21,7 +21,7 @@ use super::action::ViewStep;
 use super::keyboard_focus::is_keyboard_owned;
 use super::status::PROGRESS_DELAY;
 use super::verdict_strip::StepSentence;
-use super::{PanelContext, context_menu, start, verdict_strip, widgets};
+use super::{PanelContext, context_menu, lacking_result, start, verdict_strip, widgets};
 use crate::app::{DebugSettings, JobCommand, ViewCommand};
 use crate::photo::ReadOptions;
 use crate::raster::PixelIndex;
@@ -187,6 +187,9 @@ impl ImagePanel {
         let height = verdict_strip::height_of(ui, rows) + margin.sum().y;
         let panel = Panel::bottom("verdict").frame(bar.inner_margin(margin)).resizable(false);
         panel.exact_size(height).show(ui, |ui| {
+            if state.debugger.stopped().is_none() && state.lacks_result() && !state.shows_pinned() {
+                return lacking_result::show_in_place_of_verdict(ui, cx);
+            }
             if painting::is_older(state) {
                 ui.multiply_opacity(OLDER_OPACITY);
             }

@@ -9,7 +9,7 @@ mod histograms;
 
 use super::background_value::{BackgroundValue, SYNCHRONOUS_PX};
 use super::cursor_owners::{CursorOwners, CursorPlace};
-use super::{PanelContext, widgets};
+use super::{PanelContext, lacking_result, widgets};
 use crate::app::State;
 use crate::describe::Names;
 use crate::raster::{HypothesisId, PixelIndex, RegionId};
@@ -65,7 +65,7 @@ impl InspectorPanel {
         if step.is_none() && found.is_none() && marked.is_none() && !has_answers {
             let text = "Click a pixel or a region: its verdict and its history appear here, and the reason for every refusal.";
             let frame = egui::Frame::new().inner_margin(12);
-            frame.show(ui, |ui| widgets::placeholder(ui, cx.palette, text));
+            frame.show(ui, |ui| lacking_result::placeholder(ui, cx, text));
             return;
         }
         egui::Frame::new().inner_margin(8).show(ui, |ui| {

@@ -6,6 +6,7 @@ pub mod testing;
 use super::action::{Action, CubeAction, DebugAction, ViewStep};
 use super::cube_choices::{COLORINGS, NamedView};
 use super::dock::Dock;
+use super::lacking_result::ANALYZE_NOW;
 use super::menu_keys::{MenuKeys, submenu};
 use super::move_cursor::selected_goal;
 use super::pane::Pane;
@@ -342,6 +343,14 @@ fn analyze(ui: &mut Ui, cx: &mut PanelContext) {
         .on_hover_text("Every parameter and switch to this method's default.");
     item(ui, cx, "Load parameters\u{2026}", Action::LoadParameters, true);
     item(ui, cx, "Save parameters\u{2026}", Action::SaveParameters, true);
+    ui.separator();
+    if cx.state.jobs.analysis.is_some() {
+        item(ui, cx, "Cancel the analysis", Action::CancelAnalysis, true)
+            .on_hover_text("The result before stays.");
+    } else {
+        item(ui, cx, ANALYZE_NOW, Action::Analyze, cx.state.picture.is_some())
+            .on_hover_text("Analyze the photograph with the present parameters.");
+    }
     ui.separator();
     let pinned = cx.state.pinned.is_some();
     let text = if pinned { "Let the pinned result go" } else { "Pin this result to compare with" };

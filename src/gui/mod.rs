@@ -34,6 +34,7 @@ mod image_panel;
 mod inspector_panel;
 mod instant_key;
 mod keyboard_focus;
+mod lacking_result;
 mod menu;
 mod menu_keys;
 mod move_cursor;

@@ -48,8 +48,9 @@ fn why_no_trace(state: &State) -> Option<&'static str> {
     match (&state.debugger.replay, &state.picture) {
         (Some(_), _) => None,
         (None, None) => Some("open a photograph first"),
-        (None, Some(_)) if state.view.debug.open => Some("the decisions are being recorded"),
-        (None, Some(_)) => Some("no decisions are recorded: D records them"),
+        (None, Some(_)) if !state.view.debug.open => Some("no decisions are recorded: D records them"),
+        (None, Some(_)) if state.lacks_trace() => Some("no decisions are recorded: F5 analyzes now"),
+        (None, Some(_)) => Some("the decisions are being recorded"),
     }
 }
 

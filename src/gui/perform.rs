@@ -52,7 +52,7 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
         | Action::ThreeLamps
         | Action::ReadAs(_)
         | Action::ForgetRecent => change_photographs(action, cx),
-        Action::CancelExport => cx.send(JobCommand::CancelExport),
+        Action::CancelExport | Action::CancelAnalysis | Action::Analyze => start_or_cancel(action, cx),
         Action::Undo
         | Action::Redo
         | Action::Invert
@@ -266,6 +266,19 @@ fn find_what_if(cx: &mut PanelContext) {
 /// Tells why an action has no effect.
 fn answer(cx: &mut PanelContext, text: &str) {
     cx.send(ViewCommand::Notify(Severity::Answer, text.to_owned()));
+}
+
+/// Analyzes, or cancels the analysis or the export, or tells why not.
+fn start_or_cancel(action: Action, cx: &mut PanelContext) {
+    let (is_open, is_analyzing) = (cx.state.picture.is_some(), cx.state.jobs.analysis.is_some());
+    match action {
+        Action::CancelExport => cx.send(JobCommand::CancelExport),
+        Action::CancelAnalysis if is_analyzing => cx.send(JobCommand::CancelAnalysis),
+        Action::CancelAnalysis => answer(cx, "no analysis is under way"),
+        _ if is_analyzing => answer(cx, "the analysis is under way"),
+        _ if is_open => cx.send(JobCommand::Analyze),
+        _ => answer(cx, "open a photograph first"),
+    }
 }
 
 /// Pins the newest result, or unpins the pinned one.

@@ -8,7 +8,7 @@ mod labels;
 pub mod testing;
 
 use super::theme::SMALL_PT;
-use super::{PanelContext, widgets};
+use super::{PanelContext, lacking_result, widgets};
 use crate::app::Edit;
 use crate::baseline::MarkedSkewedT;
 use crate::gui::outline::{Outline, combine_by_keys};
@@ -199,6 +199,9 @@ fn mark_outlined(
 /// Shows, while no region is selected, a sentence and the button that selects the largest region.
 fn nothing_selected(ui: &mut Ui, cx: &mut PanelContext) {
     let text = "Select a region to see its dichromatic plane.";
+    if lacking_result::has_none(cx.state) {
+        return lacking_result::placeholder(ui, cx, text);
+    }
     let regions = cx.state.shown().map(|shown| &shown.analysis.intrinsic.regions);
     let largest = regions.and_then(|regions| regions.iter().rev().max_by_key(|region| region.pixels));
     let button = largest.map(|_| "Select the largest region");

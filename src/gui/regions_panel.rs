@@ -5,7 +5,7 @@ mod light_summary;
 mod table_columns;
 
 use super::theme::{SMALL_PT, ThemeColors};
-use super::{PanelContext, context_menu, widgets};
+use super::{PanelContext, context_menu, lacking_result, widgets};
 use crate::app::Edit;
 use crate::describe::grouped_sentences;
 use crate::intrinsic::{HighlightBranch, RegionReflection};
@@ -112,11 +112,8 @@ impl RegionsPanel {
     /// Shows the panel.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let Some(shown) = cx.state.shown().cloned() else {
-            return widgets::placeholder(
-                ui,
-                cx.palette,
-                "Regions appear when a photograph has been analyzed.",
-            );
+            let text = "Regions appear when a photograph has been analyzed.";
+            return lacking_result::placeholder(ui, cx, text);
         };
         let state = cx.state;
         egui::Frame::new().inner_margin(egui::Margin::symmetric(8, 4)).show(ui, |ui| {

@@ -5,7 +5,7 @@ use super::background_value::{BackgroundValue, SYNCHRONOUS_PX};
 use super::cursor_owners::{CursorOwners, CursorPlace};
 use super::named_marks_list::NamedMarksList;
 use super::theme::{BODY_PT, SMALL_PT};
-use super::{PanelContext, widgets};
+use super::{PanelContext, lacking_result, widgets};
 use crate::app::Edit;
 use crate::raster::{Mask, UNASSIGNED};
 use crate::trace::Class;
@@ -37,11 +37,8 @@ impl SelectionPanel {
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let state = cx.state;
         let Some(shown) = state.shown().cloned() else {
-            return widgets::placeholder(
-                ui,
-                cx.palette,
-                "Statistics appear when a photograph has been analyzed.",
-            );
+            let text = "Statistics appear when a photograph has been analyzed.";
+            return lacking_result::placeholder(ui, cx, text);
         };
         let (marked, item) = (state.document.selection.marked.clone(), state.document.selection.item);
         let subject = match (&marked, item) {

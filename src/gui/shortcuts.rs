@@ -79,6 +79,8 @@ const GENERAL: &[Shortcut] = &[
     key_with_command("Edit", Key::M, Action::KeepMark, "Keep the marked pixels as a named mark"),
     key_with_command("Edit", Key::T, Action::FitSkewedT, "Fit a skewed T to the marked pixels"),
     key_alone("Edit", Key::Escape, Action::Escape, "Give up the gesture; select and mark nothing"),
+    key_alone("Analyze", Key::F5, Action::Analyze, "Analyze now, with the present parameters"),
+    key_alone("Analyze", Key::Escape, Action::CancelAnalysis, "Cancel the analysis under way"),
     key_alone("Edit", Key::CloseBracket, Action::Region(true), "Select the next region"),
     key_alone("Edit", Key::OpenBracket, Action::Region(false), "Select the region before"),
     key_alone("Image", Key::Num1, Action::Layer(Layer::Input), "Input"),
@@ -175,7 +177,7 @@ fn keys_as_text(ctx: &egui::Context, keys: KeyboardShortcut) -> String {
 }
 
 /// The actions whose keys were pressed, and what was typed after a key that opens a field for text; none while a text is being edited
-/// or a menu is open. `escape_is_action`: whether Escape is an action; otherwise Escape closes a dialog or a menu.
+/// or a menu is open. `escape_is_action`: whether Escape has an action; otherwise Escape closes a dialog or a menu.
 pub fn pressed(
     ctx: &egui::Context,
     escape_is_action: bool,
@@ -186,7 +188,7 @@ pub fn pressed(
         return (Vec::new(), Vec::new());
     }
     let active: Vec<&Shortcut> = all_shortcuts()
-        .filter(|shortcut| escape_is_action || shortcut.action != Action::Escape)
+        .filter(|shortcut| escape_is_action || shortcut.keys.logical_key != Key::Escape)
         .filter(|shortcut| listeners.allows(ctx, shortcut))
         .collect();
     let (space_shortcuts, keys): (Vec<&Shortcut>, Vec<&Shortcut>) =
@@ -260,11 +262,16 @@ pub fn show_help(ui: &mut Ui, cx: &PanelContext, open: &mut bool) {
     let ctx = ui.ctx().clone();
     let room = ctx.content_rect().size();
     let columns: &[&[&str]] = if room.x >= FOUR_COLUMNS_PT {
-        &[&["File", "Edit", "Compare"], &["Image"], &["Decisions", "Window"], &["Tools", "Pointer"]]
+        &[
+            &["File", "Edit", "Analyze", "Compare"],
+            &["Image"],
+            &["Decisions", "Window"],
+            &["Tools", "Pointer"],
+        ]
     } else if room.x >= THREE_COLUMNS_PT {
-        &[&["File", "Edit", "Compare"], &["Image", "Decisions"], &["Tools", "Pointer", "Window"]]
+        &[&["File", "Edit", "Analyze", "Compare"], &["Image", "Decisions"], &["Tools", "Pointer", "Window"]]
     } else {
-        &[&["File", "Edit", "Image", "Compare"], &["Window", "Decisions", "Tools", "Pointer"]]
+        &[&["File", "Edit", "Analyze", "Image", "Compare"], &["Window", "Decisions", "Tools", "Pointer"]]
     };
     // The window with its margins and its bar is never wider than the room.
     let column_pt = ((room.x - 60.0) / columns.len() as f32 - GAP_PT).clamp(60.0, WIDEST_COLUMN_PT);

@@ -1,11 +1,14 @@
 //! The status line: photograph, size, encoding, noise, number of regions, coverage, time, and the
 //! progress of running work.
 
-use super::PanelContext;
+use super::action::Action;
 use super::theme::SMALL_PT;
-use crate::app::{Job, JobCommand};
+use super::{PanelContext, lacking_result};
+use crate::analysis::Stage;
+use crate::app::{Job, JobState};
 use crate::params::Parameter;
-use egui::{Align, Layout, RichText, Ui};
+use egui::accesskit::Role;
+use egui::{Align, Layout, RichText, Ui, WidgetInfo};
 use std::time::Duration;
 
 /// Time after which running work is shown with a spinner and a progress bar.
@@ -70,6 +73,11 @@ fn parts(cx: &PanelContext) -> Vec<StatusPart> {
             let tip = "The views show the pinned result; the key A goes back to the newest, B.".to_owned();
             parts.insert(0, StatusPart { text: "A: the pinned result".to_owned(), tip, is_bad: true });
         }
+        if cx.state.shows_other_parameters() {
+            let tip =
+                "What follows belongs to other parameters: the present ones are not analyzed.".to_owned();
+            parts.push(StatusPart { text: "the result before:".to_owned(), tip, is_bad: true });
+        }
         parts.push(quiet(
             format!("\u{3c3}0 {:.2}{auto}", used.camera_noise),
             "Noise of the camera in counts, given or estimated from the photograph (section 5.2.1).",
@@ -108,18 +116,43 @@ fn duration_text(ms: f64) -> String {
     }
 }
 
-/// Shows the progress of work that takes longer than `PROGRESS_DELAY`.
+/// Work under way, as the line shows it.
+struct Progress {
+    job: Job,
+    words: String,
+    /// The share that is done, 0…1; none where that is not known.
+    done: Option<f32>,
+    /// Of work that can be canceled: the accessible name of the button, its tooltip and its action.
+    cancel: Option<(&'static str, &'static str, Action)>,
+}
+
+/// The work that is under way; none where the window waits for nothing.
+fn progress_of(jobs: &JobState) -> Option<Progress> {
+    if let Some(job) = jobs.analysis {
+        let stages = Stage::ALL.len() as f32;
+        let words =
+            job.stage.map_or_else(|| "waiting".to_owned(), |stage| format!("analyzing: {}", stage.name()));
+        let done = job.stage.map(|stage| stage as usize as f32 / stages);
+        let tip = "Stop the analysis; the result before stays (Esc).";
+        let cancel = Some(("Cancel the analysis", tip, Action::CancelAnalysis));
+        return Some(Progress { job, words, done, cancel });
+    }
+    if let Some(job) = jobs.reading {
+        return Some(Progress { job, words: "reading".to_owned(), done: None, cancel: None });
+    }
+    let job = jobs.export?;
+    let done = job.files.map(|(done, total)| done as f32 / total.max(1) as f32);
+    let tip = "Stop writing; nothing is left half written.";
+    let cancel = Some(("Cancel the export", tip, Action::CancelExport));
+    Some(Progress { job, words: "writing".to_owned(), done, cancel })
+}
+
+/// Shows the progress of work that takes longer than `PROGRESS_DELAY`, or what is not analyzed.
 fn progress(ui: &mut Ui, cx: &mut PanelContext) {
-    let jobs = &cx.state.jobs;
-    let stages = crate::analysis::Stage::ALL.len() as f32;
-    let (job, words, done) = if let Some(job) = &jobs.analysis {
-        let stage = job.stage.map_or("waiting", crate::analysis::Stage::name);
-        (job, stage, job.stage.map(|stage| stage as usize as f32 / stages))
-    } else if let Some(job) = &jobs.reading {
-        (job, "reading", None)
-    } else if let Some(job) = &jobs.export {
-        (job, "writing", job.files.map(|(done, total)| done as f32 / total.max(1) as f32))
-    } else {
+    let Some(Progress { job, words, done, cancel }) = progress_of(&cx.state.jobs) else {
+        if cx.state.lacks_result() {
+            lacking_result::show_status(ui, cx);
+        }
         return;
     };
     let elapsed = job.since.elapsed();
@@ -127,10 +160,13 @@ fn progress(ui: &mut Ui, cx: &mut PanelContext) {
         ui.ctx().request_repaint_after(rest);
         return;
     }
-    if words == "writing"
-        && ui.small_button("Cancel").on_hover_text("Stop writing; nothing is left half written.").clicked()
-    {
-        cx.send(JobCommand::CancelExport);
+    if let Some((name, tip, action)) = cancel {
+        let button =
+            ui.add(egui::Button::new(RichText::new("Cancel").size(SMALL_PT)).small()).on_hover_text(tip);
+        button.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
+        if button.clicked() {
+            cx.act(action);
+        }
     }
     // A bar without a measure would look like work that has ended.
     if let Some(done) = done {

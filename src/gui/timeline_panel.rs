@@ -12,7 +12,7 @@ mod transport;
 pub use track::track_id;
 pub use transport::has_room_for_answers;
 
-use super::{PanelContext, widgets};
+use super::{PanelContext, lacking_result, widgets};
 use crate::app::{Command, DebugCommand, DebugSettings};
 use crate::describe::Names;
 use crate::trace::Trace;
@@ -39,7 +39,12 @@ impl TimelinePanel {
             return recording_off(ui, cx);
         }
         let Some(replay) = debugger.replay.as_ref().filter(|replay| !replay.trace().is_empty()) else {
-            return widgets::placeholder(ui, cx.palette, "Recording the decisions of the analysis\u{2026}");
+            let text = if state.lacks_trace() && state.newest.is_some() {
+                "The decisions of this result are not recorded: F5 analyzes now."
+            } else {
+                "Recording the decisions of the analysis\u{2026}"
+            };
+            return lacking_result::placeholder(ui, cx, text);
         };
         let names = self.names(debugger.generation, replay.trace());
         let has_room = has_room_for_answers(ui.max_rect());

@@ -1,7 +1,7 @@
 //! The watch panel: values at the debugger's cursor, with a mark on each value that changed since the cursor last stopped.
 
 use super::theme::{SMALL_PT, ThemeColors};
-use super::{PanelContext, widgets};
+use super::{PanelContext, lacking_result};
 use crate::color::Vec3;
 use crate::view::{CurrentHypothesis, Watch, WatchedPixel};
 use egui::{Align, Label, Layout, RichText, ScrollArea, Ui, vec2};
@@ -49,7 +49,7 @@ impl WatchPanel {
         let (state, debugger) = (cx.state, &cx.state.debugger);
         let (Some(replay), Some(picture)) = (&debugger.replay, &state.picture) else {
             let text = "Values at the cursor appear when the decisions of an analysis are recorded (D).";
-            return widgets::placeholder(ui, cx.palette, text);
+            return lacking_result::placeholder(ui, cx, text);
         };
         let Some(found) = state.watched() else { return };
         let mut groups = vec![run_lines(&found)];

@@ -196,11 +196,11 @@ impl WindowContent {
         // egui removes the focus from a text field on Escape, so the focus of the last frame decides.
         let was_text_edited = std::mem::replace(&mut self.is_text_edited, false);
         let escape_is_action = !was_text_edited && !egui::Popup::is_any_open(ui.ctx());
-        let listeners = shortcuts::KeyListeners::of(
-            cx.state,
-            self.panels.color_space_rect.take(),
-            timeline_panel::track_id(),
-        );
+        let color_space_rect = self.panels.color_space_rect.take();
+        let mut listeners =
+            shortcuts::KeyListeners::of(cx.state, color_space_rect, timeline_panel::track_id());
+        // Escape closes the list of keys before it cancels anything.
+        listeners.cancels_analysis &= !self.help;
         let owns_keyboard =
             self.dialogs.is_open() || self.command_palette.is_open() || self.closing.is_open();
         if !owns_keyboard {

@@ -14,7 +14,8 @@ const ROWS: [&str; 3] = ["1111", "1122", ".222"];
 fn input() -> ExportInput {
     let picture = gray(&ROWS, 120);
     let shown = Arc::new(divided(&picture, &ROWS));
-    let mut state = State { picture: Some(picture), newest: Some(shown), ..State::default() };
+    let generation = shown.generation;
+    let mut state = State { picture: Some(picture), newest: Some(shown), generation, ..State::default() };
     state.document.selection.item = Some(Item::Region(crate::raster::RegionId::from_index(1)));
     ExportInput::of(&state)
 }
@@ -83,7 +84,9 @@ fn an_export_that_fails_says_why_and_what_to_do() {
     let unselected = ExportInput { document: crate::app::Document::default(), ..input() };
     fails(ExportKind::Selection.to(path.clone()), &unselected, "nothing is selected");
     let failed = ExportInput { shown: None, ..input() };
-    fails(ExportKind::Matte.to(path.clone()), &failed, "gave no result");
+    fails(ExportKind::Matte.to(path.clone()), &failed, "no result for the present parameters");
+    let canceled = ExportInput { lacks_result: true, ..input() };
+    fails(ExportKind::Regions.to(path.clone()), &canceled, "no result for the present parameters");
     let analyzing = ExportInput { is_analyzing: true, ..failed };
     fails(ExportKind::Matte.to(path.clone()), &analyzing, "still under way");
     let anew = ExportInput { is_analyzing: true, ..input() };

@@ -1,6 +1,7 @@
 //! The reducer of the document's edits: each change is a step of the undo history, and is analyzed where needed.
 
 use super::named_marks::{edit_named_marks, update_active_mark};
+use crate::app::state::is_same_area;
 use crate::app::{Combine, Document, Edit, Effect, Gesture, Severity, State};
 use crate::params::{IlluminantSetting, Method, Parameter, Params};
 use crate::raster::{Mask, Raster};
@@ -172,11 +173,7 @@ fn restore_document(state: &mut State, document: Option<Document>) -> Vec<Effect
 
 /// Analyzes if parameters or area differ from those of `before`.
 fn analyze_if_needed(state: &mut State, before: &Document) -> Vec<Effect> {
-    let same_area = match (&before.area, &state.document.area) {
-        (None, None) => true,
-        (Some(a), Some(b)) => Arc::ptr_eq(a, b),
-        _ => false,
-    };
+    let same_area = is_same_area(before.area.as_ref(), state.document.area.as_ref());
     if before.params == state.document.params && same_area { Vec::new() } else { analyze(state) }
 }
 

@@ -1,5 +1,6 @@
 //! The reducer of the commands that start and stop work in the background.
 
+use super::edits::analyze;
 use super::photographs;
 use super::reports::reading_of;
 use crate::app::files_to_open::files_to_open;
@@ -53,6 +54,12 @@ pub(super) fn reduce(state: &mut State, command: JobCommand) -> Vec<Effect> {
         JobCommand::Rescue(text) => {
             state.notify(Severity::Error, text);
             vec![Effect::Rescue]
+        }
+        JobCommand::Analyze => analyze(state),
+        JobCommand::CancelAnalysis if state.jobs.analysis.is_none() => Vec::new(),
+        JobCommand::CancelAnalysis => {
+            state.give_up_analysis();
+            vec![Effect::CancelAnalysis]
         }
         JobCommand::CancelExport => vec![Effect::StopWriting],
     }

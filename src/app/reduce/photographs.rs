@@ -95,6 +95,7 @@ pub(super) fn take_written(state: &mut State, written: WrittenWorkspace) {
 
 /// The photograph that is shown, taken out of the state.
 fn take_shown(state: &mut State) -> Option<OpenPhotograph> {
+    state.keep_complete_result();
     Some(OpenPhotograph {
         picture: state.picture.take()?,
         document: std::mem::take(&mut state.document),

@@ -112,10 +112,7 @@ fn end_export(state: &mut State, outcome: Result<String, String>, workspace: Opt
 fn end_panicked(state: &mut State, work: Work, reason: &str) -> Vec<Effect> {
     match work {
         Work::Photograph | Work::File => (state.jobs.reading, state.restoring) = (None, None),
-        Work::Analysis => {
-            (state.jobs.analysis, state.preview) = (None, None);
-            state.give_up_pin();
-        }
+        Work::Analysis => state.give_up_analysis(),
         Work::Export => state.jobs.export = None,
         Work::WhatIf => state.what_if_job = None,
         Work::Rescue => {}
@@ -321,7 +318,9 @@ fn show_result(state: &mut State, shown: Arc<ResultSnapshot>) -> Vec<Effect> {
     let newer = state.newest.as_ref().is_none_or(|newest| {
         (shown.generation, shown.stale_from.is_none()) >= (newest.generation, newest.stale_from.is_none())
     });
-    if !same_picture || !newer {
+    // What a canceled analysis had still to say is not heard, unless it is the whole result.
+    let is_canceled = shown.stale_from.is_some() && state.jobs.analysis.is_none();
+    if !same_picture || !newer || is_canceled {
         return Vec::new();
     }
     if shown.stale_from.is_none() {
@@ -345,13 +344,21 @@ fn show_result(state: &mut State, shown: Arc<ResultSnapshot>) -> Vec<Effect> {
     {
         state.document.selection.item = largest_region(&shown);
     }
-    state.newest = Some(shown);
+    replace_newest(state, shown);
     let Some(after) = state.awaited.after_pin.take_if(|_| is_last) else { return Vec::new() };
     state.pinned = state.newest.clone();
     state.view.show_pinned = after.show_pinned;
     (state.document.params, state.document.selection.item) = (after.params, after.item);
     state.awaited.is_numbered = true;
     analyze(state)
+}
+
+/// Takes a result for the newest one. The last complete one is kept while some stages of the newest are still to be computed.
+fn replace_newest(state: &mut State, shown: Arc<ResultSnapshot>) {
+    let is_complete = |result: &Arc<ResultSnapshot>| result.stale_from.is_none();
+    let before = state.newest.take().filter(is_complete).or(state.last_complete.take());
+    state.last_complete = before.filter(|_| !is_complete(&shown));
+    state.newest = Some(shown);
 }
 
 /// Shows the result for the working picture, unless the whole result or a newer one is there.
@@ -362,7 +369,9 @@ fn show_preview(state: &mut State, preview: Preview) {
     let newest = state.newest.as_ref().filter(|newest| newest.stale_from.is_none());
     let is_newer = newest.is_none_or(|newest| newest.generation < generation)
         && state.preview.as_ref().is_none_or(|shown| shown.shown.generation < generation);
-    if same_picture && is_newer {
+    // What a canceled analysis had still to say is not heard.
+    let is_canceled = state.jobs.analysis.is_none() && generation <= state.generation;
+    if same_picture && is_newer && !is_canceled {
         state.preview = Some(preview);
     }
 }

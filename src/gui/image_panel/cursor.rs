@@ -120,7 +120,8 @@ pub fn show_texts(
     instant: &Instant,
 ) {
     let Some(replay) = state.followed() else { return };
-    let text = format!("at step {}: {}", grouped(replay.at()), cursor_place(replay));
+    let before = if state.lacks_result() { "the result before, " } else { "" };
+    let text = format!("{before}at step {}: {}", grouped(replay.at()), cursor_place(replay));
     let corner = view.left_top() + vec2(6.0, 6.0);
     let area = overlay::text_box(painter, palette, corner, Align2::LEFT_TOP, &text);
     let label = ui.interact(area, ui.scope_id().with("cursor place"), Sense::hover());

@@ -128,17 +128,17 @@ impl ImagePanel {
     }
 }
 
-/// The factor of a layer's colors: gray for a layer of an older result, when the newer result takes long; otherwise white.
+/// The factor of a layer's colors: gray for a layer of an older result, when the newer result takes long or was canceled; otherwise white.
 fn tint(cx: &PanelContext, layer: Layer) -> Color32 {
     if layer.needs_result() && is_older(cx.state) { Color32::from_gray(140) } else { Color32::WHITE }
 }
 
-/// Whether layers and verdict are of an older result, while the newer result takes long.
+/// Whether layers and verdict are of an older result, while the newer result takes long or was canceled.
 pub(super) fn is_older(state: &State) -> bool {
     let is_late = state.jobs.analysis.is_some_and(|job| job.since.elapsed() >= PROGRESS_DELAY);
     // A preview is made anew several times a second while a slider moves.
     let is_current = state.is_current() || state.shown_preview().is_some();
-    is_late && !is_current && !state.view.show_pinned
+    is_late && !is_current && !state.view.show_pinned || state.shows_other_parameters()
 }
 
 /// The wipe's line, with a grip in its middle.

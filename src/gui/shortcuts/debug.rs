@@ -3,6 +3,7 @@
 use super::shortcut::Shortcut;
 use crate::app::{Direction, State, StepUnit};
 use crate::gui::action::{Action, DebugAction};
+use crate::gui::status::is_work_shown;
 use crate::view::Tool;
 use Direction::{Back, Forward};
 use egui::{Context, Event, Id, Key, Modifiers, Rect};
@@ -55,19 +56,26 @@ pub struct KeyListeners {
     pub has_photograph: bool,
     /// Whether Enter closes an outline.
     pub draws_polygon: bool,
+    /// Whether Escape cancels the analysis, which is told to be under way.
+    pub cancels_analysis: bool,
 }
 
 impl KeyListeners {
     /// The listeners of a state, the color space being shown at `color_space_rect`.
     pub fn of(state: &State, color_space_rect: Option<Rect>, track: Id) -> Self {
         let draws_polygon = [state.view.image.tool, state.view.cube.tool].contains(&Tool::Polygon);
-        Self { color_space_rect, track, has_photograph: state.picture.is_some(), draws_polygon }
+        let cancels_analysis = is_work_shown(state.jobs.analysis.as_ref());
+        let has_photograph = state.picture.is_some();
+        Self { color_space_rect, track, has_photograph, draws_polygon, cancels_analysis }
     }
 
     /// Whether no listener takes the key of a shortcut, so that the shortcut's action is done.
     pub fn allows(&self, ctx: &Context, shortcut: &Shortcut) -> bool {
-        if !matches!(shortcut.action, Action::Debug(_) | Action::View(_)) {
-            return true;
+        match shortcut.action {
+            Action::Debug(_) | Action::View(_) => {}
+            Action::CancelAnalysis => return self.cancels_analysis,
+            Action::Escape => return !self.cancels_analysis,
+            _ => return true,
         }
         let focused = ctx.memory(egui::Memory::focused).filter(|&id| id != self.track);
         let focused_widget = focused.and_then(|id| ctx.read_response(id));

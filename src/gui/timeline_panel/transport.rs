@@ -315,6 +315,7 @@ fn status(ui: &mut Ui, cx: &PanelContext, missed: Option<Missed>) {
         (Some(Forward), _) => ("playing".to_owned(), cx.palette.accent),
         (Some(Back), _) => ("playing back".to_owned(), cx.palette.accent),
         (None, Some(index)) => (format!("breakpoint {}", index + 1), cx.palette.accent),
+        (None, None) if cx.state.lacks_trace() => ("of an earlier result".to_owned(), cx.palette.secondary),
         (None, None) if stale => ("recording\u{2026}".to_owned(), cx.palette.secondary),
         (None, None) if debugger.stopped().is_none() => ("result".to_owned(), cx.palette.secondary),
         (None, None) => ("stopped".to_owned(), cx.palette.secondary),

@@ -7,6 +7,7 @@
 
 mod accessibility;
 mod by_hand;
+mod canceling;
 mod closing;
 mod color_space_panel;
 mod colors;
