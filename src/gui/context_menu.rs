@@ -1,7 +1,8 @@
 //! Context menus: what can be done with a pixel or a region, by the secondary button of the pointer.
 
 use super::PanelContext;
-use super::action::{Action, LayerFile, PixelSet};
+use super::action::{Action, CubeAction, LayerFile, PixelSet};
+use super::cube_choices::NamedView;
 use super::pane::Pane;
 use super::shortcuts::keys_of;
 use crate::app::{Combine, Edit, ViewCommand};
@@ -10,8 +11,49 @@ use crate::view::{ImageSettings, Item, Layer};
 use egui::{Button, Ui};
 use std::sync::Arc;
 
-/// Shows what can be done with a pixel of the photograph.
+/// Shows what can be done with a pixel of the photograph, and with the picture.
 pub fn of_pixel(ui: &mut Ui, cx: &mut PanelContext, pixel: PixelIndex) {
+    of_pixel_alone(ui, cx, pixel);
+    ui.separator();
+    ui.menu_button("Layer", |ui| {
+        for layer in Layer::ALL.into_iter().filter(|&layer| cx.state.lacks(layer).is_none()) {
+            let is_shown = cx.state.view.image.layer == layer;
+            let keys = keys_of(ui.ctx(), Action::Layer(layer));
+            if ui.add(Button::selectable(is_shown, layer.name()).shortcut_text(keys)).clicked() {
+                cx.send(ViewCommand::Image(ImageSettings { layer, ..cx.state.view.image.clone() }));
+            }
+        }
+    });
+    export_layer(ui, cx, cx.state.view.image.layer);
+    action(ui, cx, "Fit the whole picture", Action::Fit);
+    action(ui, cx, "Export\u{2026}", Action::Export);
+}
+
+/// Shows what can be done with a color of the color space and with its region, and the named views.
+pub fn of_color(ui: &mut Ui, cx: &mut PanelContext, bin: Option<u32>, region: Option<RegionId>) {
+    if let Some(bin) = bin {
+        if ui.button("Select this color").clicked() {
+            cx.send(Edit::Select(Some(Item::Bin(bin))));
+        }
+        ui.separator();
+    }
+    if let Some(region) = region {
+        of_region(ui, cx, region);
+        ui.separator();
+    }
+    for (view, key, name, tip) in NamedView::ALL {
+        let is_possible = !view.is_of_plane() || cx.state.selected_region().is_some();
+        let row = Button::new(name).shortcut_text(key.name());
+        if ui.add_enabled(is_possible, row).on_hover_text(tip).clicked() {
+            cx.act(Action::Cube(CubeAction::View(view)));
+        }
+    }
+    ui.separator();
+    action(ui, cx, "Export\u{2026}", Action::Export);
+}
+
+/// Shows what can be done with a pixel of the photograph, wherever the pixel is shown.
+pub fn of_pixel_alone(ui: &mut Ui, cx: &mut PanelContext, pixel: PixelIndex) {
     let Some(picture) = cx.state.picture.clone() else { return };
     let [x, y] = pixel.position(picture.size().0);
     ui.label(format!("Pixel {x}, {y}"));
@@ -35,19 +77,6 @@ pub fn of_pixel(ui: &mut Ui, cx: &mut PanelContext, pixel: PixelIndex) {
         ui.separator();
         action(ui, cx, "Fit skewed T to the marked", Action::FitSkewedT);
     }
-    ui.separator();
-    ui.menu_button("Layer", |ui| {
-        for layer in Layer::ALL.into_iter().filter(|&layer| cx.state.lacks(layer).is_none()) {
-            let is_shown = cx.state.view.image.layer == layer;
-            let keys = keys_of(ui.ctx(), Action::Layer(layer));
-            if ui.add(Button::selectable(is_shown, layer.name()).shortcut_text(keys)).clicked() {
-                cx.send(ViewCommand::Image(ImageSettings { layer, ..cx.state.view.image.clone() }));
-            }
-        }
-    });
-    export_layer(ui, cx, cx.state.view.image.layer);
-    action(ui, cx, "Fit the whole picture", Action::Fit);
-    action(ui, cx, "Export\u{2026}", Action::Export);
 }
 
 /// Shows what can be done with a region.

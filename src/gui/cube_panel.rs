@@ -15,7 +15,7 @@ pub mod testing;
 mod unique_colors;
 
 use super::cube_choices::NamedView;
-use super::{PanelContext, widgets};
+use super::{PanelContext, context_menu, widgets};
 use crate::app::{Edit, State, ViewCommand};
 use crate::gpu::{Batch, Line, Orbit, Projector, Scene, pick};
 use crate::gui::outline::{Outline, combine_by_keys};
@@ -52,6 +52,8 @@ pub struct CubePanel {
     /// The camera for which the lines of the scene were made: silhouettes depend on the camera.
     lines_camera: Option<Orbit>,
     size: [f32; 2],
+    /// The color bin that the context menu is about; none where the pointer was at no point.
+    menu_bin: Option<u32>,
 }
 
 impl CubePanel {
@@ -277,7 +279,7 @@ impl CubePanel {
     }
 
     /// Sends what the pointer does: hovering a bin highlights its pixels; a click selects the bin's region,
-    /// Alt + click the bin.
+    /// Alt + click the bin; the secondary button opens the menu of both.
     fn handle_pointer(
         &mut self,
         cx: &mut PanelContext,
@@ -285,7 +287,8 @@ impl CubePanel {
         projector: &Projector,
         rect: Rect,
     ) {
-        let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
+        let is_clicked = response.clicked() || response.secondary_clicked();
+        let clicked = response.interact_pointer_pos().filter(|_| is_clicked);
         let pointer = clicked.or(response.hover_pos().filter(|_| !response.dragged()));
         let bin = pointer.and_then(|at| {
             let at = (at - rect.min).into();
@@ -306,6 +309,12 @@ impl CubePanel {
             let region = bin.and_then(|bin| self.cloud.region_of(bin)).map(Item::Region);
             cx.send(Edit::Select(if alt { hover } else { region.or(hover) }));
         }
+        if response.secondary_clicked() {
+            self.menu_bin = bin;
+        }
+        let (bin, is_result) = (self.menu_bin, cx.state.followed().is_none());
+        let region = bin.filter(|_| is_result).and_then(|bin| self.cloud.region_of(bin));
+        response.context_menu(|ui| context_menu::of_color(ui, cx, bin, region));
     }
 
     /// Marks the pixels whose colors lie inside a finished rectangle, lasso or polygon.

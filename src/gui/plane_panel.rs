@@ -7,19 +7,20 @@ mod kinds;
 mod labels;
 pub mod testing;
 
+use super::action::Action;
 use super::theme::SMALL_PT;
-use super::{PanelContext, lacking_result, widgets};
+use super::{PanelContext, context_menu, lacking_result, widgets};
 use crate::app::Edit;
 use crate::baseline::MarkedSkewedT;
 use crate::gui::outline::{Outline, combine_by_keys};
 use crate::params::Method;
-use crate::raster::RegionId;
+use crate::raster::{PixelIndex, RegionId};
 use crate::segment::LightBasis;
 use crate::view::{
     Item, NamedMarks, Picture, PixelAmounts, PlaneBranch, Point, RegionPlane, ResultSnapshot, Theme, Tool,
     plane_mask, region_plane, sphere_in_plane,
 };
-use chart::Chart;
+use chart::{Chart, navigate};
 use egui::text::LayoutJob;
 use egui::{Align2, Color32, Rect, Response, RichText, Sense, Shape, Stroke, Ui, vec2};
 use labels::{Obstacles, PointDensity};
@@ -33,8 +34,6 @@ const RING_PT: f32 = 6.0;
 const HOVERED_TEXT_PT: egui::Vec2 = vec2(300.0, 30.0);
 /// Width of a view that has room for the facts beside the values of the hovered color, points.
 const TWO_TEXTS_PT: f32 = 480.0;
-/// Scroll distance that zooms by the factor e, points.
-const SCROLL_PT: f32 = 260.0;
 
 /// The plane panel.
 #[derive(Default)]
@@ -51,6 +50,8 @@ pub struct PlanePanel {
     point_mesh: Option<PointMesh>,
     /// The outline that is being drawn.
     outline: Outline,
+    /// The pixel that the context menu is about; none where the pointer was at no point.
+    menu_pixel: Option<PixelIndex>,
 }
 
 /// The points as a mesh, with the inputs that the mesh was made for.
@@ -137,6 +138,32 @@ impl PlanePanel {
         if is_pointer {
             self.handle_pointer(cx, &response, chart, rect);
         }
+        self.context_menu(cx, &response, chart, rect);
+    }
+
+    /// Shows, at a click with the secondary button, what can be done with the pixel of the nearest point and with the chart.
+    fn context_menu(&mut self, cx: &mut PanelContext, response: &Response, chart: Chart, rect: Rect) {
+        if let Some(at) = response.interact_pointer_pos().filter(|_| response.secondary_clicked()) {
+            self.menu_pixel = self.pixel_near(at, chart, rect);
+        }
+        response.context_menu(|ui| {
+            if let Some(pixel) = self.menu_pixel {
+                context_menu::of_pixel_alone(ui, cx, pixel);
+                ui.separator();
+            }
+            if ui.button("Fit the plane").clicked() {
+                self.is_moved = false;
+            }
+            if ui.button("Export\u{2026}").clicked() {
+                cx.act(Action::Export);
+            }
+        });
+    }
+
+    /// The pixel whose point is nearest to a place on the screen; none where all points are far.
+    fn pixel_near(&self, at: egui::Pos2, chart: Chart, rect: Rect) -> Option<PixelIndex> {
+        let radius = HOVER_RADIUS_PT * chart.counts_per_pt;
+        self.plane.as_ref()?.nearest(chart.oblique(at, rect), radius).map(|point| point.pixel)
     }
 
     /// Drops an unfinished outline when Escape is pressed, and consumes the key, so that the selection stays.
@@ -167,13 +194,10 @@ impl PlanePanel {
     }
 
     /// Sends what the pointer does: hovering a point hovers its pixel, a click selects the pixel.
-    fn handle_pointer(&mut self, cx: &mut PanelContext, response: &Response, chart: Chart, rect: Rect) {
-        let Some(plane) = &self.plane else { return };
+    fn handle_pointer(&self, cx: &mut PanelContext, response: &Response, chart: Chart, rect: Rect) {
         let clicked = response.interact_pointer_pos().filter(|_| response.clicked());
         let pointer = clicked.or(response.hover_pos().filter(|_| !response.dragged()));
-        let found = pointer
-            .and_then(|at| plane.nearest(chart.oblique(at, rect), HOVER_RADIUS_PT * chart.counts_per_pt));
-        let hover = found.map(|point| Item::Pixel(point.pixel));
+        let hover = pointer.and_then(|at| self.pixel_near(at, chart, rect)).map(Item::Pixel);
         if let Some(item) = hover {
             cx.hover(item);
         }
@@ -210,32 +234,6 @@ fn nothing_selected(ui: &mut Ui, cx: &mut PanelContext) {
     {
         cx.send(Edit::Select(Some(Item::Region(largest.id))));
     }
-}
-
-/// The chart after this frame's input: a drag pans, the wheel zooms at the pointer, a double click fits the plane. `chart` is the
-/// chart that a person moved; without such a chart, the plane is fitted into the view. `is_moved` is whether a person has
-/// moved the chart. `pans` is whether a drag pans; otherwise a drag draws an outline.
-fn navigate(
-    ui: &Ui,
-    response: &Response,
-    plane: &RegionPlane,
-    chart: Option<Chart>,
-    rect: Rect,
-    is_moved: &mut bool,
-    pans: bool,
-) -> Chart {
-    let fitted = chart.filter(|_| !response.double_clicked());
-    let mut chart = fitted.unwrap_or_else(|| Chart::fit(plane, rect));
-    let before = chart;
-    if pans || response.dragged_by(egui::PointerButton::Middle) {
-        chart.pan(response.drag_delta());
-    }
-    if let Some(pointer) = response.hover_pos() {
-        let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
-        chart.zoom((scroll / SCROLL_PT).exp() * pinch, pointer, rect);
-    }
-    *is_moved = (*is_moved && !response.double_clicked()) || chart != before;
-    chart
 }
 
 /// The points as a mesh of two triangles each, rebuilt when chart, coloring or theme change.

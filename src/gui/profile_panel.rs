@@ -2,8 +2,8 @@
 
 mod chart;
 
-use super::{PanelContext, widgets};
-use crate::app::ViewCommand;
+use super::{PanelContext, context_menu, widgets};
+use crate::app::{Edit, ViewCommand};
 use crate::raster::PixelIndex;
 use crate::view::{Item, ProfileLine, ProfileSample, Theme, Tool, profile, profile_ends};
 use chart::{Curve, ProfileChart};
@@ -18,6 +18,8 @@ pub struct ProfilePanel {
     samples: Option<(SamplesKey, Vec<ProfileSample>)>,
     /// Names of the curves that a person has hidden.
     hidden: Vec<&'static str>,
+    /// The pixel that the context menu is about, once it was opened.
+    menu_pixel: Option<PixelIndex>,
 }
 
 /// The colors of a curve in both themes.
@@ -78,7 +80,7 @@ impl ProfilePanel {
             if !cx.is_export {
                 toolbar(ui, cx, ends, samples, picture.size().0);
             }
-            plot(ui, cx, samples, hovered, &mut self.hidden);
+            plot(ui, cx, samples, hovered, &mut self.hidden, &mut self.menu_pixel);
         });
     }
 }
@@ -116,13 +118,14 @@ fn toolbar(ui: &mut Ui, cx: &mut PanelContext, ends: [[f32; 2]; 2], samples: &[P
     });
 }
 
-/// Draws the curves, and sends the pixel under the pointer as hovered.
+/// Draws the curves, and sends the pixel under the pointer as hovered. A click selects that pixel; the secondary button opens its menu.
 fn plot(
     ui: &mut Ui,
     cx: &mut PanelContext,
     samples: &[ProfileSample],
     hovered: Option<PixelIndex>,
     hidden: &mut Vec<&'static str>,
+    menu_pixel: &mut Option<PixelIndex>,
 ) {
     let theme = cx.state.view.theme;
     let all: Vec<Curve> = CURVES
@@ -135,7 +138,7 @@ fn plot(
         chart::legend(ui, cx.palette, &all, hidden, marked);
     }
     let shown: Vec<Curve> = all.into_iter().filter(|curve| !hidden.contains(&curve.name)).collect();
-    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+    let (rect, response) = ui.allocate_exact_size(ui.available_size(), Sense::CLICK);
     if rect.width() < 48.0 || rect.height() < 48.0 {
         return;
     }
@@ -147,19 +150,23 @@ fn plot(
     if let Some(position_px) = marked {
         chart.mark(ui.painter(), cx.palette, &shown, position_px);
     }
-    let pointed = response.hover_pos().and_then(|pointer| {
+    let pointed = response.interact_pointer_pos().or(response.hover_pos()).and_then(|pointer| {
         let at = chart.position_at(pointer);
         let distance = |sample: &&ProfileSample| (sample.position_px - at).abs();
         samples.iter().min_by(|a, b| distance(a).total_cmp(&distance(b)))
     });
     if let Some(sample) = pointed {
-        // Hovering is sent only for a fixed line: a row or column through the hovered pixel would move
-        // with the pointer.
-        let fixed = matches!(cx.state.view.profile, ProfileLine::Between(..))
-            || matches!(cx.state.document.selection.item, Some(Item::Pixel(_)));
-        if fixed {
-            cx.hover(Item::Pixel(sample.pixel));
+        // The row or column through a pixel of the line is the line.
+        cx.hover(Item::Pixel(sample.pixel));
+        if response.clicked() {
+            cx.send(Edit::Select(Some(Item::Pixel(sample.pixel))));
         }
+        if response.secondary_clicked() {
+            *menu_pixel = Some(sample.pixel);
+        }
+    }
+    if let Some(pixel) = *menu_pixel {
+        response.context_menu(|ui| context_menu::of_pixel_alone(ui, cx, pixel));
     }
 }
 

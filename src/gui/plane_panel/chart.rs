@@ -10,6 +10,8 @@ use egui::{Align2, Painter, Pos2, Rect, Response, Shape, Stroke, Ui, Vec2, pos2,
 const TICKS_APART_PT: f32 = 44.0;
 /// Margin around the fitted plane for the axes' labels, points.
 const MARGIN_PT: Vec2 = vec2(40.0, 30.0);
+/// Scroll distance that zooms by the factor e, points.
+const SCROLL_PT: f32 = 260.0;
 /// Smallest and largest scale, counts per point.
 const SCALES: [f32; 2] = [0.002, 20.0];
 
@@ -231,6 +233,32 @@ impl Chart {
         };
         Some(ChartLabel { at: middle + vec2(0.0, 16.0), anchor: Align2::CENTER_TOP, text, tip, term: None })
     }
+}
+
+/// The chart after this frame's input: a drag pans, the wheel zooms at the pointer, a double click fits the plane. `chart` is the
+/// chart that a person moved; without such a chart, the plane is fitted into the view. `is_moved` is whether a person has
+/// moved the chart. `pans` is whether a drag pans; otherwise a drag draws an outline.
+pub fn navigate(
+    ui: &Ui,
+    response: &Response,
+    plane: &RegionPlane,
+    chart: Option<Chart>,
+    rect: Rect,
+    is_moved: &mut bool,
+    pans: bool,
+) -> Chart {
+    let fitted = chart.filter(|_| !response.double_clicked());
+    let mut chart = fitted.unwrap_or_else(|| Chart::fit(plane, rect));
+    let before = chart;
+    if pans || response.dragged_by(egui::PointerButton::Middle) {
+        chart.pan(response.drag_delta());
+    }
+    if let Some(pointer) = response.hover_pos() {
+        let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta().y, input.zoom_delta()));
+        chart.zoom((scroll / SCROLL_PT).exp() * pinch, pointer, rect);
+    }
+    *is_moved = (*is_moved && !response.double_clicked()) || chart != before;
+    chart
 }
 
 /// Stroke of the grid line of a value: the line of zero is an axis and darker.

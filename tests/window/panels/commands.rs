@@ -2,14 +2,14 @@
 
 use crate::window::{
     Fixture, Window, answer, apply, at, choose, click, inside, item, marked, notice, open_sample, press,
-    region, says, state, tap, tiny, tiny_window, window, with_gpu, zoom_in,
+    region, says, secondary_click, state, tap, tiny, tiny_window, window, with_gpu, zoom_in,
 };
 use dichroscope::app::{Command, DebugCommand, Edit};
 use dichroscope::params::{Parameter, Setting};
 use dichroscope::truth::sample;
 use dichroscope::view::{Arrangement, ArrangementKind, ColorBy, ColorSpace, Item, Layer, Theme};
 use egui::accesskit::Role;
-use egui::{Event, Key, Modifiers, PointerButton, Pos2, pos2};
+use egui::{Event, Key, Modifiers, pos2};
 use egui_kittest::kittest::Queryable;
 
 fn type_text(window: &mut Window, text: &str) {
@@ -51,16 +51,6 @@ fn a_command_is_chosen_by_arrows_or_the_pointer_and_escape_chooses_none() {
     press(&mut window, Modifiers::COMMAND, Key::P);
     type_text(&mut window, "no such thing");
     assert!(says(&window, "No command has these letters."));
-}
-
-fn secondary_click(window: &mut Window, pos: Pos2) {
-    window.hover_at(pos);
-    window.run_steps(2);
-    for pressed in [true, false] {
-        let (button, modifiers) = (PointerButton::Secondary, Modifiers::NONE);
-        window.event(Event::PointerButton { pos, button, pressed, modifiers });
-    }
-    window.run_steps(3);
 }
 
 #[test]

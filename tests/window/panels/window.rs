@@ -286,6 +286,17 @@ pub fn drag(window: &mut Window, points: &[Pos2], modifiers: Modifiers) {
     window.run_steps(2);
 }
 
+/// A click with the secondary button of the pointer, which opens a menu.
+pub fn secondary_click(window: &mut Window, pos: Pos2) {
+    window.hover_at(pos);
+    window.run_steps(2);
+    for pressed in [true, false] {
+        let (button, modifiers) = (PointerButton::Secondary, Modifiers::NONE);
+        window.event(Event::PointerButton { pos, button, pressed, modifiers });
+    }
+    window.run_steps(3);
+}
+
 /// A click with press and release in one frame.
 pub fn tap(window: &mut Window, pos: Pos2) {
     window.hover_at(pos);
