@@ -11,7 +11,7 @@ const WIDTH_PT: f32 = 560.0;
 /// Largest number of notices shown at once; of more, the newest are shown.
 const MOST_NOTICES: usize = 4;
 /// Time after which the notice of a success or of an answer goes by itself, seconds. Warnings and errors stay until they are dismissed.
-const PASSING_SECONDS: f64 = 6.0;
+pub const PASSING_SECONDS: f64 = 6.0;
 
 /// The notices that are shown.
 #[derive(Default)]
@@ -78,7 +78,7 @@ impl Notices {
 /// Shows one notice: its kind, its sentence, which wraps, and the button that dismisses the notice.
 fn row(ui: &mut Ui, cx: &mut PanelContext, notice: &Notice) {
     let (severity_text, tone) = match notice.severity {
-        Severity::Answer => ("Timeline", cx.palette.secondary),
+        Severity::Answer => ("Answer", cx.palette.secondary),
         Severity::Done => ("Done", cx.palette.secondary),
         Severity::Warning => ("Note", cx.palette.accent),
         Severity::Error => ("Error", cx.palette.error),

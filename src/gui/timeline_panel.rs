@@ -12,11 +12,13 @@ mod transport;
 pub use track::track_id;
 pub use transport::has_room_for_answers;
 
+use super::notices::PASSING_SECONDS;
 use super::{PanelContext, lacking_result, widgets};
-use crate::app::{Command, DebugCommand, DebugSettings};
+use crate::app::{Command, DebugCommand, DebugSettings, Debugger, Missed};
 use crate::describe::Names;
 use crate::trace::Trace;
 use egui::{Frame, Margin, RichText, Ui};
+use std::time::Duration;
 use track::Track;
 
 /// The timeline panel.
@@ -25,6 +27,8 @@ pub struct TimelinePanel {
     track: Track,
     /// Names of hypotheses and regions, with the generation of the trace that they belong to.
     names: Option<(u64, Names)>,
+    /// The move whose answer is told, and the time at which that was first told, seconds.
+    answered: Option<(u64, f64)>,
 }
 
 impl TimelinePanel {
@@ -47,11 +51,25 @@ impl TimelinePanel {
             return lacking_result::placeholder(ui, cx, text);
         };
         let names = self.names(debugger.generation, replay.trace());
-        let has_room = has_room_for_answers(ui.max_rect());
+        let missed = self.missed(ui, debugger).filter(|_| has_room_for_answers(ui.max_rect()));
         Frame::new().inner_margin(Margin { left: 8, right: 8, top: 3, bottom: 5 }).show(ui, |ui| {
-            transport::show(ui, cx, replay, &names, has_room);
+            transport::show(ui, cx, replay, &names, missed);
             self.track.show(ui, cx, replay, &names);
         });
+    }
+
+    /// What the last move of the cursor did not find, for as long as a notice would tell it.
+    fn missed(&mut self, ui: &Ui, debugger: &Debugger) -> Option<Missed> {
+        let missed = debugger.missed?;
+        let now = ui.input(|input| input.time);
+        let since =
+            self.answered.filter(|(answered, _)| *answered == debugger.moves).map_or(now, |(_, since)| since);
+        self.answered = Some((debugger.moves, since));
+        let rest = PASSING_SECONDS - (now - since);
+        (rest > 0.0).then(|| {
+            ui.ctx().request_repaint_after(Duration::from_secs_f64(rest));
+            missed
+        })
     }
 
     /// The names of the trace's hypotheses and regions, computed once for each trace.

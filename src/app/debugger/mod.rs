@@ -41,6 +41,8 @@ pub struct Debugger {
     pub stopped_by: Option<usize>,
     /// What the last move of the cursor did not find; none where the move ended where it was to end.
     pub missed: Option<Missed>,
+    /// Number of moves of the cursor so far: the same answer to two moves is two answers.
+    pub moves: u64,
     /// The first step at which the trace differs from the pinned result's trace, once the two were compared.
     pub difference: Option<Difference>,
     /// The regions of the result whose trace is replayed.

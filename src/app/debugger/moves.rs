@@ -25,6 +25,7 @@ impl Debugger {
     fn stop_playing(&mut self) {
         (self.playing, self.play_until, self.unit_fraction) = (None, None, 0.0);
         (self.stopped_by, self.missed) = (None, None);
+        self.moves = self.moves.wrapping_add(1);
     }
 
     /// The end of the trace that the cursor would leave by a move in a direction; none inside the trace.

@@ -86,9 +86,8 @@ const RIGHT: [Control; 5] = [
     ),
 ];
 
-/// Shows the playback controls and the sentence about the last step. `has_room`: whether there is room for what the debugger answers to a key.
-pub fn show(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, names: &Names, has_room: bool) {
-    let missed = cx.state.debugger.missed.filter(|_| has_room);
+/// Shows the playback controls and the sentence about the last step. `missed`: what the last move of the cursor did not find, to be told.
+pub fn show(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, names: &Names, missed: Option<Missed>) {
     ui.spacing_mut().item_spacing = vec2(2.0, 3.0);
     ui.spacing_mut().interact_size.y = icons::SIDE_PT;
     let has_two_rows = ui.available_height() >= TWO_ROWS_PT;

@@ -42,6 +42,17 @@ fn a_move_that_finds_nothing_says_so_in_the_timeline() {
 }
 
 #[test]
+fn an_answer_in_the_timeline_goes_by_itself_and_is_told_again_when_the_key_is_pressed_again() {
+    let mut window = tiny_window();
+    plain(&mut window, Key::ArrowRight);
+    assert!(says(&window, "Nothing follows the result"));
+    wait(&mut window);
+    assert!(!says(&window, "Nothing follows the result") && says(&window, "result"));
+    plain(&mut window, Key::ArrowRight);
+    assert!(says(&window, "Nothing follows the result"), "the cursor stayed, and the key has its answer");
+}
+
+#[test]
 fn run_to_a_goal_that_is_not_there_ends_at_the_end() {
     let mut window = tiny_window();
     plain(&mut window, Key::End);
