@@ -7,7 +7,7 @@ use super::pane::Pane;
 use egui::{Ui, Vec2, vec2};
 
 /// Smallest width and height of the room in which the panels stand as a person arranged them, points.
-const LEAST_ROOM_PT: Vec2 = vec2(620.0, 420.0);
+const LEAST_ROOM_PT: Vec2 = vec2(760.0, 430.0);
 
 /// All visible panels as tabs of one group. The arrangement that a person made stays as it is.
 #[derive(Default)]

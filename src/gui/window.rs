@@ -114,7 +114,7 @@ fn options() -> eframe::NativeOptions {
         .with_app_id("dichroscope")
         .with_icon(icon())
         .with_inner_size([1440.0, 900.0])
-        .with_min_inner_size([900.0, 560.0])
+        .with_min_inner_size([640.0, 400.0])
         .with_drag_and_drop(true);
     eframe::NativeOptions {
         viewport,
