@@ -4,7 +4,7 @@ use super::files_to_open::with_unopened;
 use super::report::Report;
 use super::{FilesToOpen, Workspace};
 use crate::params::{Params, toml_error};
-use crate::photo::{self, ReadOptions};
+use crate::photo::{self, ReadError, ReadOptions};
 use crate::truth::sample::{CAMERA_FILE, Sample};
 use crate::truth::{ForeignResult, GroundTruth, read_label_map};
 use crate::view::{Elsewhere, ElsewhereKind, ElsewherePaths, Histogram, Origin, Picture};
@@ -37,7 +37,7 @@ pub(super) fn picture(origin: Origin, options: ReadOptions) -> Result<Picture, S
         }
         Origin::Bytes { name, bytes } => (photo::decode(bytes, name, &options), photo::sha256_hex(bytes)),
     };
-    let mut photo = photo.map_err(|error| error.to_string())?;
+    let mut photo = photo.map_err(|error| reason(&error))?;
     let read_ms = began_at.elapsed().as_secs_f64() * 1e3;
     let truth = truth(&origin).unwrap_or_else(|reason| {
         photo.warnings.push(reason);
@@ -45,6 +45,17 @@ pub(super) fn picture(origin: Origin, options: ReadOptions) -> Result<Picture, S
     });
     let histogram = Histogram::of(&photo.image);
     Ok(Picture { origin, reading: options, photo, sha256, read_ms, histogram, truth })
+}
+
+/// Why a photograph cannot be read, and what to do in the window, which has no flags.
+fn reason(error: &ReadError) -> String {
+    let ReadError::TooLarge { file, width, height, limit_megapixels, .. } = error else {
+        return error.to_string();
+    };
+    format!(
+        "{file}: the file declares {width} \u{d7} {height} pixels, and the window opens up to {limit_megapixels} megapixels; \
+         open a smaller copy, or use `dichroscope analyze --max-megapixels`"
+    )
 }
 
 /// Reads photographs that are opened together. One that cannot be read does not keep the others from being opened.
@@ -159,5 +170,18 @@ pub(super) fn workspace(path: &Path, elsewhere: ElsewherePaths) -> Report {
             Report::WorkspaceRead { workspace: Box::new(workspace), path: path.to_owned() }
         }
         Err(reason) => Report::Failed(with_unopened(reason, &elsewhere)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_photograph_that_is_too_large_is_answered_with_what_can_be_done_in_the_window() {
+        let tiny = concat!(env!("CARGO_MANIFEST_DIR"), "/assets/tiny/camera8.png");
+        let options = ReadOptions { max_megapixels: 0.01, ..ReadOptions::default() };
+        let error = picture(Origin::File(tiny.into()), options).unwrap_err();
+        assert!(error.contains("178 \u{d7} 150 pixels") && error.contains("open a smaller copy"), "{error}");
     }
 }
