@@ -201,7 +201,7 @@ fn figures(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Vec<Figure> {
     let highlights = |shown: &ResultSnapshot| {
         shown.analysis.intrinsic.regions.iter().filter(|region| region.highlights().is_some()).count()
     };
-    let mut figures = vec![
+    let of_results = [
         both("regions", "", &|shown| Some(regions(shown) as f64)),
         both("regions with a highlight", "", &|shown| Some(highlights(shown) as f64)),
         both("coverage", "%", &|shown| Some(100.0 * shown.coverage)),
@@ -211,21 +211,27 @@ fn figures(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Vec<Figure> {
         both("light B", "", &|shown| shown.analysis.illuminant.map(|light| light.direction[2])),
         both("camera noise", "counts", &|shown| Some(shown.analysis.used.camera_noise)),
     ];
-    if let (Some(a), Some(b)) = (pinned.accuracy(), newest.accuracy()) {
-        // The number of regions is among the figures already.
-        let scores = a.scores.figures().into_iter().zip(b.scores.figures());
-        figures.extend(scores.filter(|((name, _), _)| *name != "regions").map(
-            |((name, pinned), (_, newest))| {
-                let unit = match name {
-                    name if name.starts_with("psnr") => "dB",
-                    name if name.ends_with("deg") => "\u{b0}",
-                    _ => "",
-                };
-                Figure { name, unit, pinned, newest }
-            },
-        ));
-    }
-    figures
+    // What a comparison is made for comes first: a low panel shows only the first rows.
+    scores(pinned, newest).into_iter().chain(of_results).collect()
+}
+
+/// The scores of both results against the ground truth, those of images first, those of doing nothing last, which are the same for both;
+/// empty without a ground truth.
+fn scores(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Vec<Figure> {
+    let (Some(pinned), Some(newest)) = (pinned.accuracy(), newest.accuracy()) else { return Vec::new() };
+    let scores = pinned.scores.figures().into_iter().zip(newest.scores.figures());
+    // The number of regions is among the figures of the results.
+    let scores = scores.filter(|((name, _), _)| *name != "regions").map(|((name, pinned), (_, newest))| {
+        let unit = match name {
+            name if name.starts_with("psnr") => "dB",
+            name if name.ends_with("deg") => "\u{b0}",
+            _ => "",
+        };
+        Figure { name, unit, pinned, newest }
+    });
+    let mut scores: Vec<Figure> = scores.collect();
+    scores.sort_by_key(|figure| (figure.name.ends_with("nothing"), figure.unit != "dB"));
+    scores
 }
 
 /// Root mean square of the regions' fit errors, weighted by their pixels; none without a region.
