@@ -87,8 +87,9 @@ fn parts(cx: &PanelContext) -> Vec<StatusPart> {
         let text = regions_and_coverage(regions.len(), misfits, shown.coverage);
         let tip = "Regions, those that the model does not fit, and the share of the lit pixels in regions.";
         parts.push(StatusPart { text, tip: tip.to_owned(), is_bad: misfits > 0 });
-        // Until the last stage is there, the sum would be the time of some of them.
-        if shown.stale_from.is_none() && preview.is_none() {
+        // Until the last stage is there, the sum would be the time of some of them; where no stage ran anew, that of none.
+        let has_run = shown.took_ms.iter().any(Option::is_some);
+        if shown.stale_from.is_none() && preview.is_none() && has_run {
             parts.push(quiet(duration_text(shown.total_ms()), "Time that the analysis took."));
         }
     }
