@@ -13,6 +13,8 @@ pub struct JobState {
     pub reading: Option<Job>,
     /// The export under way.
     pub export: Option<Job>,
+    /// Whether the export under way was canceled: it ends at its next stop check.
+    pub cancels_export: bool,
     /// The id of the notice that says why the last export failed; none where that was written or stopped.
     pub failed_export: Option<u64>,
 }

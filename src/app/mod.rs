@@ -7,6 +7,7 @@
 //! Files use one another in one direction: plain data (document, view settings, debugger, workspace), then the state, then
 //! exports and commands, then the reducers, then the application.
 
+mod analysis_state;
 mod analysis_worker;
 mod application;
 mod awaited;

@@ -4,7 +4,7 @@ use super::awaited::{AfterPin, Awaited};
 use super::{
     Debugger, Document, History, JobState, OpenPhotograph, Preview, ViewSettings, WhatIfJob, Workspace,
 };
-use crate::raster::{Mask, PixelIndex, RegionId};
+use crate::raster::{PixelIndex, RegionId};
 use crate::trace::Replay;
 use crate::view::{
     Against, Arrangement, Elsewhere, ElsewhereKind, ElsewherePaths, Item, Layer, LayerNeed, Picture,
@@ -112,44 +112,6 @@ impl State {
         self.preview.as_ref().map(|preview| preview.blocks.side()).or_else(of_newest).unwrap_or(1)
     }
 
-    /// Whether an analysis is under way whose result the panels will show.
-    pub fn awaits_result(&self) -> bool {
-        self.jobs.analysis.is_some() && !self.shows_pinned()
-    }
-
-    /// Whether the newest result is complete and belongs to the present parameters and area.
-    pub fn is_current(&self) -> bool {
-        self.newest.as_ref().filter(|newest| newest.stale_from.is_none()).is_some_and(|newest| {
-            let is_asked_for = newest.params == self.document.params
-                && is_same_area(newest.area.as_ref(), self.document.area.as_ref());
-            newest.generation == self.generation || !self.is_analyzing() && is_asked_for
-        })
-    }
-
-    /// Whether an analysis is under way.
-    fn is_analyzing(&self) -> bool {
-        self.jobs.analysis.is_some() || self.preview.is_some()
-    }
-
-    /// Whether the photograph has no result for the present parameters and area and none is being computed: the analysis was canceled,
-    /// or ended by an error.
-    pub fn lacks_result(&self) -> bool {
-        self.picture.is_some() && !self.is_analyzing() && !self.is_current()
-    }
-
-    /// Whether the decisions that led to the newest result are not recorded and will not be: the analysis was canceled.
-    pub fn lacks_trace(&self) -> bool {
-        let is_expected = |newest: &Arc<ResultSnapshot>| {
-            newest.generation == self.generation || newest.generation == self.debugger.generation
-        };
-        !self.is_analyzing() && !self.newest.as_ref().is_some_and(is_expected)
-    }
-
-    /// Whether the result that is shown belongs to other parameters or another area than the present ones, which are not being analyzed.
-    pub fn shows_other_parameters(&self) -> bool {
-        self.lacks_result() && self.newest.is_some() && !self.shows_pinned()
-    }
-
     /// The result for the working picture that views show in place of the result, and the selected region in it; none where the
     /// result itself or the pinned result is to be shown.
     pub fn shown_preview(&self) -> Option<(&Preview, Option<RegionId>)> {
@@ -227,18 +189,6 @@ impl State {
         self.explained_pixel = None;
         self.view.show_pinned = false;
         self.awaited = Awaited::default();
-    }
-
-    /// Ends the analysis without a result: the last complete one stays.
-    pub(super) fn give_up_analysis(&mut self) {
-        (self.jobs.analysis, self.preview) = (None, None);
-        self.keep_complete_result();
-        self.give_up_pin();
-    }
-
-    /// Takes the last complete result for the newest one, where some of the stages of that are still to be computed.
-    pub(super) fn keep_complete_result(&mut self) {
-        self.newest = self.last_complete.take().or(self.newest.take());
     }
 
     /// Gives up the pinned result of a restored workspace, where that is being computed: the parameters are those of the newest result.
@@ -399,15 +349,6 @@ impl State {
     /// The region of the selected item, which the panels about one region show.
     pub fn selected_region(&self) -> Option<RegionId> {
         self.document.selection.item.and_then(|item| self.region_of(item))
-    }
-}
-
-/// Whether two areas are one and the same, or both the whole picture.
-pub(super) fn is_same_area(one: Option<&Arc<Mask>>, other: Option<&Arc<Mask>>) -> bool {
-    match (one, other) {
-        (None, None) => true,
-        (Some(one), Some(other)) => Arc::ptr_eq(one, other),
-        _ => false,
     }
 }
 

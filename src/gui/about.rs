@@ -2,11 +2,11 @@
 //! computed or its computation was canceled.
 
 use super::PanelContext;
-use super::status::is_work_shown;
 use super::theme::SMALL_PT;
+use super::work_shown::is_work_shown;
 use crate::app::State;
 use egui::accesskit::Role;
-use egui::{Align2, Color32, FontId, Sense, Ui, WidgetInfo, vec2};
+use egui::{Align2, Color32, FontId, Rect, Sense, Ui, WidgetInfo, vec2};
 
 /// The result that a panel is about.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -48,10 +48,11 @@ impl About {
         }
     }
 
-    /// Dims a panel that shows the result before, and says so in its lower right corner. `ground`: the color of the panel.
-    pub fn mark(self, ui: &Ui, cx: &PanelContext, ground: Color32) {
+    /// Dims a panel that shows the result before, and says so in its lower right corner. `full`: the place of the panel; `ground`: its
+    /// color.
+    pub fn mark(self, ui: &Ui, cx: &PanelContext, full: Rect, ground: Color32) {
         let Some(text) = self.note(cx.state).filter(|_| !cx.is_export) else { return };
-        let (painter, full) = (ui.painter(), ui.max_rect());
+        let painter = ui.painter();
         painter.rect_filled(full, 0.0, ground.gamma_multiply(0.45));
         let font = FontId::proportional(SMALL_PT);
         let galley = painter.layout_no_wrap(text.to_owned(), font, cx.palette.text);

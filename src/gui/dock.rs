@@ -161,7 +161,9 @@ impl Panels {
     /// or a person tries again, and the workspace is saved.
     pub fn show(&mut self, pane: Pane, ui: &mut Ui, cx: &mut PanelContext) {
         let row = pane.row();
-        let size = ui.max_rect().size();
+        // Contents that need more room than there is enlarge the rectangle.
+        let place = ui.max_rect();
+        let size = place.size();
         ui.painter().rect_filled(ui.max_rect(), 0.0, (row.background)(cx.palette));
         self.failed.retain(|failed| failed.pane != pane || (failed.size - size).length() < 1.0);
         if self.failed.iter().any(|failed| failed.pane == pane) {
@@ -182,7 +184,7 @@ impl Panels {
         }
         // The image shows the newer result as far as it is computed, and dims single layers.
         if pane != Pane::Image {
-            row.about.mark(ui, cx, (row.background)(cx.palette));
+            row.about.mark(ui, cx, place, (row.background)(cx.palette));
         }
     }
 }

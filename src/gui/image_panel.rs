@@ -19,8 +19,8 @@ mod white_patch;
 
 use super::action::ViewStep;
 use super::keyboard_focus::is_keyboard_owned;
-use super::status::PROGRESS_DELAY;
 use super::verdict_strip::StepSentence;
+use super::work_shown::PROGRESS_DELAY;
 use super::{PanelContext, context_menu, lacking_result, start, verdict_strip, widgets};
 use crate::app::{DebugSettings, JobCommand, ViewCommand};
 use crate::photo::ReadOptions;

@@ -27,7 +27,7 @@ pub fn show_status(ui: &mut Ui, cx: &mut PanelContext) {
 /// Shows, in place of the verdict, that the result shown belongs to other parameters or that there is none, and the link that analyzes.
 pub fn show_in_place_of_verdict(ui: &mut Ui, cx: &mut PanelContext) {
     let text = if cx.state.newest.is_some() {
-        "This result belongs to other parameters: the present ones are not analyzed."
+        "This result belongs to other parameters."
     } else {
         "This photograph is not analyzed."
     };

@@ -74,6 +74,7 @@ mod watch_panel;
 mod widgets;
 mod window;
 mod window_content;
+mod work_shown;
 
 pub use app::App;
 pub use pane::Pane;

@@ -3,24 +3,16 @@
 
 use super::action::Action;
 use super::theme::SMALL_PT;
+use super::work_shown::PROGRESS_DELAY;
 use super::{PanelContext, lacking_result};
 use crate::analysis::Stage;
 use crate::app::{Job, JobState};
 use crate::params::Parameter;
 use egui::accesskit::Role;
 use egui::{Align, Layout, RichText, Ui, WidgetInfo};
-use std::time::Duration;
-
-/// Time after which running work is shown with a spinner and a progress bar.
-pub const PROGRESS_DELAY: Duration = Duration::from_millis(150);
 
 /// Smallest width of a part, points.
 const LEAST_PART_PT: f32 = 44.0;
-
-/// Whether work is under way that has taken long enough to be shown.
-pub fn is_work_shown(job: Option<&Job>) -> bool {
-    job.is_some_and(|job| job.since.elapsed() >= PROGRESS_DELAY)
-}
 
 /// Shows the line, right-aligned in the remaining space of the menu bar.
 pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
@@ -144,8 +136,9 @@ fn progress_of(jobs: &JobState) -> Option<Progress> {
     let job = jobs.export?;
     let done = job.files.map(|(done, total)| done as f32 / total.max(1) as f32);
     let tip = "Stop writing; nothing is left half written.";
-    let cancel = Some(("Cancel the export", tip, Action::CancelExport));
-    Some(Progress { job, words: "writing".to_owned(), done, cancel })
+    let cancel = (!jobs.cancels_export).then_some(("Cancel the export", tip, Action::CancelExport));
+    let words = if jobs.cancels_export { "canceling" } else { "writing" };
+    Some(Progress { job, words: words.to_owned(), done, cancel })
 }
 
 /// Shows the progress of work that takes longer than `PROGRESS_DELAY`, or what is not analyzed.

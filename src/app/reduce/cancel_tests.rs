@@ -1,9 +1,12 @@
 //! Tests of the command that cancels an analysis.
 
-use super::*;
+use super::{reduce, reduce_report};
 use crate::analysis::Stage;
 use crate::app::report::Report;
-use crate::app::{Application, Edit, Executor, Job, JobCommand, Preview, Switching};
+use crate::app::{
+    Application, Command, DebugCommand, DebugSettings, Edit, Effect, Executor, Job, JobCommand, Preview,
+    State, Switching,
+};
 use crate::params::{Parameter, Setting};
 use crate::view::{Origin, ResultSnapshot};
 use std::sync::Arc;
@@ -94,6 +97,35 @@ fn a_canceled_analysis_of_parameters_that_have_a_result_leaves_that_result_in_fo
     application.apply(JobCommand::CancelAnalysis);
     let state = application.state();
     assert!(state.is_current() && !state.lacks_result() && state.lacks_trace());
+}
+
+#[test]
+fn a_canceled_recording_is_told_to_be_missing_and_can_be_begun_again() {
+    let (mut application, woken) = application();
+    application.apply(JobCommand::Open(Origin::File(TINY.into())));
+    wait(&mut application, &woken, |state| state.debugger.replay.is_some());
+    let record = |open: bool| DebugCommand::Settings(DebugSettings { open, ..DebugSettings::default() });
+    application.apply(Command::Debug(record(false)));
+    application.apply(Command::Debug(record(true)));
+    application.apply(JobCommand::CancelAnalysis);
+    let state = application.state();
+    assert!(state.is_current() && state.lacks_trace() && state.jobs.analysis.is_none());
+    application.apply(Command::Debug(record(false)));
+    application.apply(Command::Debug(record(true)));
+    wait(&mut application, &woken, |state| state.debugger.replay.is_some());
+    assert!(application.state().jobs.analysis.is_none() && !application.state().lacks_trace());
+}
+
+#[test]
+fn a_canceled_export_is_told_to_be_canceled_until_it_has_ended() {
+    let mut state = State::default();
+    reduce(&mut state, JobCommand::CancelExport);
+    assert!(!state.jobs.cancels_export, "nothing is written");
+    state.jobs.export = Some(Job::now());
+    assert_eq!(reduce(&mut state, JobCommand::CancelExport), [Effect::StopWriting]);
+    assert!(state.jobs.cancels_export && state.jobs.export.is_some());
+    reduce_report(&mut state, Report::Exported { outcome: Ok("stopped".into()), workspace: None });
+    assert!(!state.jobs.cancels_export && state.jobs.export.is_none());
 }
 
 #[test]

@@ -1,7 +1,7 @@
 //! The reducer of the document's edits: each change is a step of the undo history, and is analyzed where needed.
 
 use super::named_marks::{edit_named_marks, update_active_mark};
-use crate::app::state::is_same_area;
+use crate::app::analysis_state::is_same_area;
 use crate::app::{Combine, Document, Edit, Effect, Gesture, Severity, State};
 use crate::params::{IlluminantSetting, Method, Parameter, Params};
 use crate::raster::{Mask, Raster};

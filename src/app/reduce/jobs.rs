@@ -61,7 +61,10 @@ pub(super) fn reduce(state: &mut State, command: JobCommand) -> Vec<Effect> {
             state.give_up_analysis();
             vec![Effect::CancelAnalysis]
         }
-        JobCommand::CancelExport => vec![Effect::StopWriting],
+        JobCommand::CancelExport => {
+            state.jobs.cancels_export = state.jobs.export.is_some();
+            vec![Effect::StopWriting]
+        }
     }
 }
 

@@ -93,7 +93,7 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
 
 /// Ends an export. `workspace`: where the export was a workspace, which is from now on the one that its photograph is saved to.
 fn end_export(state: &mut State, outcome: Result<String, String>, workspace: Option<WrittenWorkspace>) {
-    (state.jobs.export, state.jobs.failed_export) = (None, None);
+    (state.jobs.export, state.jobs.failed_export, state.jobs.cancels_export) = (None, None, false);
     match outcome {
         Ok(text) => {
             if let Some(written) = workspace {
@@ -113,7 +113,7 @@ fn end_panicked(state: &mut State, work: Work, reason: &str) -> Vec<Effect> {
     match work {
         Work::Photograph | Work::File => (state.jobs.reading, state.restoring) = (None, None),
         Work::Analysis => state.give_up_analysis(),
-        Work::Export => state.jobs.export = None,
+        Work::Export => (state.jobs.export, state.jobs.cancels_export) = (None, false),
         Work::WhatIf => state.what_if_job = None,
         Work::Rescue => {}
     }

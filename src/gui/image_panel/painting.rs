@@ -7,7 +7,7 @@ use super::tools::PointerContext;
 use super::{ImagePanel, cursor, other_size, overlay};
 use crate::app::State;
 use crate::gui::PanelContext;
-use crate::gui::status::PROGRESS_DELAY;
+use crate::gui::work_shown::PROGRESS_DELAY;
 use crate::view::{Arrangement, ImageSettings, Instant, Layer, Tool};
 use egui::{Color32, Painter, Rangef, Rect, StrokeKind, Ui, pos2, vec2};
 use std::sync::Arc;

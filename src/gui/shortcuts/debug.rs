@@ -3,7 +3,7 @@
 use super::shortcut::Shortcut;
 use crate::app::{Direction, State, StepUnit};
 use crate::gui::action::{Action, DebugAction};
-use crate::gui::status::is_work_shown;
+use crate::gui::work_shown::is_work_shown;
 use crate::view::Tool;
 use Direction::{Back, Forward};
 use egui::{Context, Event, Id, Key, Modifiers, Rect};

@@ -126,3 +126,16 @@ fn a_window_with_a_result_offers_nothing_to_cancel_and_nothing_to_run_again() {
     assert!(state(&window).is_current(), "it may be run again all the same");
     assert!(named(&window, Role::Image, "Picture").rect().width() > 100.0);
 }
+
+#[test]
+fn a_panel_whose_contents_need_more_room_says_inside_of_it_that_its_result_is_older() {
+    let Some(mut window) = with_state(SIZE, analyzing()) else { return };
+    for pane in [Pane::Regions, Pane::Inspector, Pane::Plane] {
+        window.state_mut().show_alone(Some(pane));
+        let size = egui::vec2(320.0, 90.0);
+        window.set_size(size);
+        window.run_steps(3);
+        let note = window.get_by_label_contains("the result before").rect();
+        assert!(egui::Rect::from_min_size(egui::Pos2::ZERO, size).contains_rect(note), "{pane:?}: {note}");
+    }
+}
