@@ -133,7 +133,8 @@ fn two_results_are_compared_by_the_first_decision_that_differs() {
 fn another_picture_closes_the_trace() {
     let mut application = application();
     debug(&mut application, DebugCommand::Seek(10));
-    application.apply(JobCommand::Open(Origin::File(TINY.into())));
+    let bytes = std::fs::read(TINY).unwrap().into();
+    application.apply(JobCommand::Open(Origin::Bytes { name: "another.png".to_owned(), bytes }));
     assert!(application.state().debugger.stopped().is_none(), "the cursor is at the end of the new one");
     assert_eq!(application.state().debugger.generation, application.state().generation);
 }

@@ -273,3 +273,26 @@ fn a_workspace_whose_pinned_result_is_being_computed_is_saved_and_left_whole() {
     reduce(&mut state, JobCommand::Switch(Switching::Next));
     assert!(is_whole(&state), "after another photograph was shown");
 }
+
+#[test]
+fn a_photograph_that_is_opened_again_is_shown_as_it_was_left_unless_its_file_has_changed() {
+    let folder = folder();
+    let path = |name: &str| folder.path().join(name);
+    let mut application = opened(&[path("a.png")]);
+    application.apply(Edit::InvertMarked);
+    for others in [0, 1] {
+        if others == 1 {
+            open(&mut application, &[path("b.png")]);
+            assert!(application.state().document.selection.marked.is_none());
+        }
+        open(&mut application, &[path("a.png")]);
+        let state = application.state();
+        assert_eq!(names(state)[0], "a.png");
+        assert!(state.others.len() == others && state.is_current() && state.history.can_undo());
+        assert!(state.document.selection.marked.is_some() && tells(state, "a.png is open already"));
+    }
+    std::fs::write(path("a.png"), std::fs::read(path("labels.png")).unwrap()).unwrap();
+    open(&mut application, &[path("a.png")]);
+    let state = application.state();
+    assert!(state.document.selection.marked.is_none() && state.others.len() == 1, "another picture");
+}

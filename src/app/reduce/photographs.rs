@@ -37,6 +37,25 @@ pub(super) fn switch(state: &mut State, switching: Switching) -> Vec<Effect> {
     circle.pop().map_or_else(Vec::new, |next| show(state, next))
 }
 
+/// Shows a photograph that is open already, unchanged and read in the same way, as it was left: opening it again loses no marks and no
+/// history. None where it is not open.
+pub(super) fn show_open(state: &mut State, picture: &Picture) -> Option<Vec<Effect>> {
+    let is_same = |known: &Picture| {
+        known.origin == picture.origin && known.sha256 == picture.sha256 && known.reading == picture.reading
+    };
+    let effects = if state.picture.as_ref().is_some_and(|shown| is_same(shown)) {
+        Vec::new()
+    } else {
+        let index = state.others.iter().position(|other| is_same(&other.picture))?;
+        switch(state, Switching::To(index))
+    };
+    state.notify(
+        Severity::Done,
+        format!("{} is open already: it is shown as it was left", picture.origin.name()),
+    );
+    Some(effects)
+}
+
 /// Closes an open photograph. In place of the photograph that is shown, the next one is shown; the only one stays.
 pub(super) fn close(state: &mut State, picture: &Arc<Picture>) -> Vec<Effect> {
     let next = if state.shows_photograph(picture) {

@@ -3,7 +3,7 @@
 use super::debugger::take_trace;
 use super::edits::{analyze, edit_params, forget_defaults, tell_of_parameters};
 use super::elsewhere::{lack_elsewhere, take_elsewhere, warning_of, with_unused_truth};
-use super::photographs::{keep_open, take_written};
+use super::photographs::{keep_open, show_open, take_written};
 use super::questions::take_progress;
 use crate::app::awaited::AfterPin;
 use crate::app::files_to_open::with_unopened;
@@ -209,9 +209,15 @@ fn remember(state: &mut State, origin: &Origin) {
 fn open_picture(state: &mut State, picture: Arc<Picture>, elsewhere: &ElsewherePaths) -> Vec<Effect> {
     state.jobs.reading = None;
     remember(state, &picture.origin);
+    let restored = state.restoring.take().filter(|restoring| restoring.workspace.origin == picture.origin);
+    if restored.is_none()
+        && let Some(mut effects) = show_open(state, &picture)
+    {
+        effects.extend(reading_of(elsewhere, true));
+        return effects;
+    }
     let warnings = picture.photo.warnings.iter().map(|warning| warning_of(&picture, warning));
     let warnings: Vec<String> = warnings.collect();
-    let restored = state.restoring.take().filter(|restoring| restoring.workspace.origin == picture.origin);
     let params = state.document.params;
     // A photograph that is read again, with another encoding or by a workspace, replaces itself.
     let is_other = state.picture.as_ref().is_some_and(|shown| shown.origin != picture.origin);

@@ -3,9 +3,9 @@
 use crate::window::{
     Window, answer, apply, choose, click, named, open_sample, press, region, says, state, tiny_window, window,
 };
-use dichroscope::app::{Edit, Severity, ViewCommand};
+use dichroscope::app::{Edit, JobCommand, Severity, ViewCommand};
 use dichroscope::truth::sample;
-use dichroscope::view::{Arrangement, ImageSettings, Layer, ProfileLine, Tool};
+use dichroscope::view::{Arrangement, ImageSettings, Layer, Origin, ProfileLine, Tool};
 use egui::accesskit::Role;
 use egui::{Event, Key, Modifiers, vec2};
 use egui_kittest::kittest::{NodeT, Queryable};
@@ -81,7 +81,8 @@ fn parameters_that_stay_in_force_are_named_once() {
     choose(&mut window, "Analyze", "Reset parameters");
     crate::window::named(&window, Role::Slider, "camera noise \u{3c3}0").set_value_accesskit(4.0);
     window.run_steps(3);
-    open_sample(&mut window, sample::NAME);
+    let bytes = std::fs::read(crate::window::tiny()).unwrap().into();
+    apply(&mut window, JobCommand::Open(Origin::Bytes { name: "another.png".to_owned(), bytes }));
     assert!(says(&window, "stay in force"), "parameters were changed anew");
     choose(&mut window, "Analyze", "Reset parameters");
     assert!(!says(&window, "stay in force"), "none is changed any more");
