@@ -114,6 +114,8 @@ pub enum ViewCommand {
     Profile(ProfileLine),
     /// Set the light or the dark theme.
     Theme(Theme),
+    /// Set the size of all texts and controls, in multiples of the size at first.
+    TextSize(f32),
     /// Set the arrangement of the panels, in the window's own format.
     Layout(String),
     /// Set the camera of the color space view, in the window's own format.

@@ -24,6 +24,8 @@ pub struct ViewSettings {
     pub show_pinned: bool,
     /// The light or the dark theme.
     pub theme: Theme,
+    /// The size of all texts and controls, in multiples of the size at first; none: that size.
+    pub text_size: Option<f32>,
     /// The arrangement of the panels, in the window's own format; empty: the first arrangement.
     pub layout: String,
     /// The camera of the color space view, in the window's own format; empty: the initial camera.

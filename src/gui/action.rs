@@ -139,6 +139,8 @@ pub enum Action {
     Theme,
     /// Use a theme.
     UseTheme(Theme),
+    /// Change the size of all texts and controls.
+    TextSize(TextStep),
     /// Move the debugger's cursor, or start or stop recording.
     Debug(DebugAction),
     /// Remove all notices.
@@ -168,6 +170,17 @@ impl Action {
                 | Self::Palette
         )
     }
+}
+
+/// A change of the size of all texts and controls.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum TextStep {
+    /// A tenth larger.
+    Larger,
+    /// A tenth smaller.
+    Smaller,
+    /// As large as at first.
+    AsAtFirst,
 }
 
 /// A step of the image view.

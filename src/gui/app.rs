@@ -125,7 +125,7 @@ impl App {
         for sentence in task::take_panics(ui.ctx()) {
             cx.send(JobCommand::Rescue(sentence));
         }
-        self.content.sync(&mut cx);
+        self.content.sync(ui.ctx(), &mut cx);
         let has_actions = self.content.keep_actions(actions);
         if !commands.is_empty() || has_actions {
             // Without this request, the change would appear only when the pointer moves.

@@ -3,7 +3,7 @@
 #[cfg(test)]
 pub mod testing;
 
-use super::action::{Action, CubeAction, DebugAction, ViewStep};
+use super::action::{Action, CubeAction, DebugAction, TextStep, ViewStep};
 use super::cube_choices::{COLORINGS, NamedView};
 use super::dock::Dock;
 use super::lacking_result::ANALYZE_NOW;
@@ -266,6 +266,14 @@ fn view(ui: &mut Ui, cx: &mut PanelContext, dock: &mut Dock) {
         choice(ui, cx, kind.name(), Action::Arrange(kind), [kind == now, open]).on_hover_text(kind.meaning());
     }
     submenu(ui, "Color space settings", |ui| color_space(ui, cx));
+    ui.separator();
+    for (text, step) in [
+        ("Larger text and controls", TextStep::Larger),
+        ("Smaller text and controls", TextStep::Smaller),
+        ("Text and controls as at first", TextStep::AsAtFirst),
+    ] {
+        item(ui, cx, text, Action::TextSize(step), true);
+    }
     ui.separator();
     for (theme, name) in THEMES {
         choice(ui, cx, name, Action::UseTheme(theme), [cx.state.view.theme == theme, true]);

@@ -64,6 +64,7 @@ mod system_dialog;
 mod task;
 #[doc(hidden)]
 pub mod testing;
+mod text_size;
 mod theme;
 mod threshold_bar;
 mod timeline_panel;

@@ -43,6 +43,7 @@ pub fn carry_out(action: Action, cx: &mut PanelContext, dialogs: &mut files::Dia
         | Action::Palette
         | Action::Menus
         | Action::ClosePhotograph
+        | Action::TextSize(_)
         | Action::View(_) => {}
         Action::Help => *help = !*help,
         Action::CloseElsewhere(_)

@@ -6,7 +6,7 @@ mod shortcut;
 pub use debug::{KeyListeners, SpaceTap};
 
 use super::PanelContext;
-use super::action::{Action, DebugAction, ViewStep};
+use super::action::{Action, DebugAction, TextStep, ViewStep};
 use super::keyboard_focus::is_keyboard_owned;
 use super::theme::SMALL_PT;
 use crate::app::Switching;
@@ -121,6 +121,15 @@ const GENERAL: &[Shortcut] = &[
     key_with_command("Window", Key::P, Action::Palette, "All commands by name"),
     key_alone("Window", Key::F10, Action::Menus, "The menus; Alt and a first letter opens one"),
     key_alone("Window", Key::T, Action::Theme, "Light or dark theme"),
+    key_with_command("Window", Key::Plus, Action::TextSize(TextStep::Larger), "Larger text and controls"),
+    key_with_command("Window", Key::Equals, Action::TextSize(TextStep::Larger), "Larger text and controls"),
+    key_with_command("Window", Key::Minus, Action::TextSize(TextStep::Smaller), "Smaller text and controls"),
+    key_with_command(
+        "Window",
+        Key::Num0,
+        Action::TextSize(TextStep::AsAtFirst),
+        "Text and controls as at first",
+    ),
     key_alone("Window", Key::Questionmark, Action::Help, "The list of keys and of the pointer"),
     key_alone("Window", Key::F1, Action::Help, "The list of keys and of the pointer"),
 ];

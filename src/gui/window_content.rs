@@ -12,8 +12,11 @@ use super::keyboard_focus::KeyboardFocus;
 use super::menu_keys::MenuKeys;
 use super::pane::Pane;
 use super::panel_context::LastHover;
+use super::text_size::TextSize;
 use super::view_export::ViewExporter;
-use super::{PanelContext, copied_texts, menu, notices, perform, shortcuts, theme, timeline_panel, widgets};
+use super::{
+    PanelContext, copied_texts, menu, notices, perform, shortcuts, text_size, theme, timeline_panel, widgets,
+};
 use crate::app::{Severity, State, ViewCommand};
 use crate::view::{ProfileLine, Tool};
 use egui::{Context, Event, LayerId, Order, PointerState, Popup, RichText, Ui};
@@ -27,6 +30,7 @@ pub struct WindowContent {
     layout: String,
     /// The camera that was last sent to the state.
     camera: String,
+    text_size: TextSize,
     panels: Panels,
     dialogs: Dialogs,
     closing: Closing,
@@ -54,9 +58,10 @@ pub struct WindowContent {
 }
 
 impl WindowContent {
-    /// Forgets what was uploaded to a graphics device, and which fonts were loaded.
+    /// Forgets what was uploaded to a graphics device, which fonts were loaded, and the size of the texts in the window before.
     pub fn forget_uploads(&mut self) {
         self.has_further_fonts = false;
+        self.text_size = TextSize::default();
         let cube = self.panels.cube.clone_with_camera();
         self.panels = Panels { cube, ..Panels::default() };
     }
@@ -83,10 +88,11 @@ impl WindowContent {
         !self.actions.is_empty()
     }
 
-    /// Takes arrangement and camera from the state where they have changed there, or sends them to the state.
-    pub fn sync(&mut self, cx: &mut PanelContext) {
+    /// Takes arrangement, camera and size of the texts from the state where they have changed there, or sends them to the state.
+    pub fn sync(&mut self, ctx: &Context, cx: &mut PanelContext) {
         self.sync_layout(cx);
         self.sync_camera(cx);
+        self.text_size.sync(ctx, cx);
     }
 
     /// Takes the arrangement of the state where that has changed (a workspace was opened); otherwise sends the panels'
@@ -225,6 +231,7 @@ impl WindowContent {
                 Action::CopyProfile => copied_texts::copy_profile(ui, cx),
                 Action::Cube(CubeAction::View(view)) => self.turn_cube(cx, view),
                 Action::Cube(CubeAction::Perspective) => self.panels.cube.toggle_projection(),
+                Action::TextSize(step) => text_size::change(ui.ctx(), step),
                 Action::View(step) => self.panels.image.step_view(ui.ctx(), cx, step),
                 _ => perform::carry_out(action, cx, &mut self.dialogs, &mut self.help),
             }

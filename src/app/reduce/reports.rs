@@ -289,8 +289,9 @@ fn restore_workspace(state: &mut State, workspace: Workspace) {
     let Some(size) = state.picture.as_ref().map(|picture| picture.size()) else { return };
     let Workspace { params, pinned, area, item, marked, named_marks, view, .. } = workspace;
     let show_pinned = view.show_pinned;
-    // The theme is a choice for the whole program: a workspace does not change the theme.
-    state.view = ViewSettings { show_pinned: false, theme: state.view.theme, ..view };
+    // Theme and size of the texts are choices for the whole program: a workspace does not change them.
+    let ViewSettings { theme, text_size, .. } = state.view;
+    state.view = ViewSettings { show_pinned: false, theme, text_size, ..view };
     let mut mask = |what: &str, runs: Option<MaskRuns>| {
         let runs = runs?;
         let mask = runs.mask().filter(|mask| (mask.width(), mask.height()) == size);

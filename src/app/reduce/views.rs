@@ -29,6 +29,7 @@ pub(super) fn reduce(state: &mut State, command: ViewCommand) {
         ViewCommand::Geometry(settings) => state.view.geometry = settings.in_range(),
         ViewCommand::Profile(line) => state.view.profile = line,
         ViewCommand::Theme(theme) => state.view.theme = theme,
+        ViewCommand::TextSize(size) => state.view.text_size = Some(size),
         ViewCommand::Layout(layout) => state.view.layout = layout,
         ViewCommand::Camera(camera) => state.view.camera = camera,
         ViewCommand::Notify(severity, text) => state.notify(severity, text),
