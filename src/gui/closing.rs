@@ -3,7 +3,7 @@
 use super::PanelContext;
 use super::action::Action;
 use super::theme::{BODY_PT, heading_font};
-use crate::app::{JobCommand, State};
+use crate::app::{JobCommand, Severity, State, ViewCommand};
 use crate::view::Picture;
 use egui::{Id, Label, Modal, RichText, Ui, ViewportCommand};
 use std::sync::Arc;
@@ -67,7 +67,10 @@ impl Closing {
     /// Closes the photograph that is shown, or asks where the work on it is not saved.
     pub fn close_photograph(&mut self, cx: &mut PanelContext) {
         let Some(picture) = cx.state.picture.clone() else { return };
-        if cx.state.is_unsaved() && !cx.state.others.is_empty() {
+        if cx.state.others.is_empty() {
+            let text = "the only photograph stays open until another one is opened";
+            cx.send(ViewCommand::Notify(Severity::Answer, text.to_owned()));
+        } else if cx.state.is_unsaved() {
             self.asked = Some(Closed::Photograph(picture));
         } else {
             cx.send(JobCommand::ClosePhotograph(picture));

@@ -136,6 +136,7 @@ fn open_dialog(action: Action, cx: &PanelContext, dialogs: &mut files::Dialogs) 
 fn change_photographs(action: Action, cx: &mut PanelContext) {
     match action {
         Action::CloseElsewhere(kind) => cx.send(ViewCommand::CloseElsewhere(kind)),
+        Action::Switch(_) if cx.state.others.is_empty() => answer(cx, "no other photograph is open"),
         Action::Switch(switching) => cx.send(JobCommand::Switch(switching)),
         Action::ComparePhotographs => {
             cx.send(ViewCommand::ComparePhotographs(!cx.state.compares_photographs));
@@ -158,6 +159,8 @@ fn change_photographs(action: Action, cx: &mut PanelContext) {
 /// Changes the document.
 fn edit(action: Action, cx: &mut PanelContext) {
     match action {
+        Action::Undo if !cx.state.history.can_undo() => answer(cx, "nothing to undo"),
+        Action::Redo if !cx.state.history.can_redo() => answer(cx, "nothing to redo"),
         Action::Undo => cx.send(Edit::Undo),
         Action::Redo => cx.send(Edit::Redo),
         Action::Invert => cx.send(Edit::InvertMarked),

@@ -170,8 +170,11 @@ fn letters_reach_no_command_while_a_menu_is_open() {
         let key = if opens.alt { Key::A } else { Key::F10 };
         press(&mut window, opens, key);
         for key in [Key::T, Key::K, Key::R, Key::Num3, Key::D, Key::Minus, Key::C] {
-            window.key_press(key);
-            press(&mut window, Modifiers::COMMAND, key);
+            press(&mut window, Modifiers::NONE, key);
+            // With Ctrl, this key makes all texts smaller, wherever the keyboard is.
+            if key != Key::Minus {
+                press(&mut window, Modifiers::COMMAND, key);
+            }
         }
         assert_eq!(state(&window).view, before);
         assert!(state(&window).pinned.is_none() && state(&window).notices.is_empty());
@@ -273,4 +276,38 @@ fn the_list_of_keys_takes_the_room_of_the_window_that_has_grown() {
     let low = list_height(&mut window, 600.0);
     let high = list_height(&mut window, 900.0);
     assert!(high > low + 200.0, "{low} in a room of 600 points, {high} in one of 900");
+}
+
+#[test]
+fn a_key_that_finds_nothing_to_undo_to_show_or_to_close_says_so() {
+    let mut window = tiny_window();
+    for (modifiers, key, answer) in [
+        (Modifiers::COMMAND, Key::Z, "nothing to undo"),
+        (Modifiers::COMMAND, Key::Y, "nothing to redo"),
+        (Modifiers::COMMAND, Key::PageDown, "no other photograph is open"),
+        (Modifiers::COMMAND, Key::W, "the only photograph stays open"),
+    ] {
+        press(&mut window, modifiers, key);
+        assert!(says(&window, answer), "{answer}: {:?}", state(&window).notices);
+    }
+    assert!(state(&window).picture.is_some());
+}
+
+#[test]
+fn the_size_of_all_texts_is_changed_by_keys_and_the_menu_and_kept() {
+    let mut window = tiny_window();
+    let percent = |size: f32| (size * 100.0).round() as u32;
+    let now = |window: &Window| percent(window.ctx.zoom_factor());
+    let kept = |window: &Window| state(window).view.text_size.map(percent);
+    press(&mut window, Modifiers::COMMAND, Key::Plus);
+    assert_eq!((now(&window), kept(&window)), (110, Some(110)));
+    press(&mut window, Modifiers::COMMAND, Key::Minus);
+    choose(&mut window, "View", "Larger text and controls");
+    press(&mut window, Modifiers::COMMAND, Key::Plus);
+    assert_eq!(now(&window), 120);
+    press(&mut window, Modifiers::COMMAND, Key::Num0);
+    assert_eq!((now(&window), kept(&window)), (100, Some(100)));
+    apply(&mut window, ViewCommand::TextSize(1.5));
+    window.run_steps(2);
+    assert_eq!(now(&window), 150, "as saved settings restore it");
 }
