@@ -117,7 +117,7 @@ pub fn export_layer(ui: &mut Ui, cx: &mut PanelContext, layer: Layer) {
 }
 
 /// Shows an action with its key.
-fn action(ui: &mut Ui, cx: &mut PanelContext, text: &str, action: Action) {
+pub fn action(ui: &mut Ui, cx: &mut PanelContext, text: &str, action: Action) {
     let keys = keys_of(ui.ctx(), action);
     if ui.add(Button::new(text).shortcut_text(keys)).clicked() {
         cx.act(action);

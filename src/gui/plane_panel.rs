@@ -114,6 +114,7 @@ impl PlanePanel {
         let numbers = chart.axes(&painter, plane, rect, cx.palette);
         let mesh = point_mesh(&mut self.point_mesh, cx, plane, chart, rect);
         painter.add(Shape::Mesh(mesh));
+        let numbers = numbers.paint();
         paint_sphere(&painter, cx, plane, chart, rect);
         // In a narrow view the values of the hovered color take the place of the facts.
         let is_taken =
@@ -154,9 +155,7 @@ impl PlanePanel {
             if ui.button("Fit the plane").clicked() {
                 self.is_moved = false;
             }
-            if ui.button("Export\u{2026}").clicked() {
-                cx.act(Action::Export);
-            }
+            context_menu::action(ui, cx, "Export\u{2026}", Action::Export);
         });
     }
 
@@ -364,7 +363,7 @@ fn paint_text(
     job.halign = anchor.x();
     let galley = painter.layout_job(job);
     let place = anchor.anchor_size(at, galley.size());
-    painter.rect_filled(place.expand2(vec2(2.0, 0.0)), 2.0, cx.palette.panel.gamma_multiply(0.75));
+    painter.rect_filled(place.expand2(vec2(2.0, 0.0)), 2.0, cx.palette.panel.gamma_multiply(0.92));
     let corner = if anchor.x() == egui::Align::RIGHT { place.right_top() } else { place.left_top() };
     painter.galley(corner, galley, Color32::PLACEHOLDER);
     place

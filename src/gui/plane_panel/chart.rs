@@ -70,15 +70,15 @@ impl Chart {
         }
     }
 
-    /// Paints both axes through black, and a grid of lines of equal amounts. Returns the rectangles of the ticks' numbers.
-    pub fn axes(
+    /// Paints both axes through black, and a grid of lines of equal amounts. Returns the ticks' numbers, which are painted over the points.
+    pub fn axes<'a>(
         self,
-        painter: &Painter,
+        painter: &'a Painter,
         plane: &RegionPlane,
         rect: Rect,
-        palette: &ThemeColors,
-    ) -> Vec<Rect> {
-        let mut numbers = TickNumbers { painter, rect, palette, taken: Vec::new() };
+        palette: &'a ThemeColors,
+    ) -> TickNumbers<'a> {
+        let mut numbers = TickNumbers { painter, rect, palette, taken: Vec::new(), texts: Vec::new() };
         let round_step = round_step(TICKS_APART_PT * self.counts_per_pt);
         let corners = [rect.left_top(), rect.right_top(), rect.right_bottom(), rect.left_bottom()]
             .map(|corner| plane.from_oblique(self.oblique(corner, rect)));
@@ -108,7 +108,7 @@ impl Chart {
                 numbers.add(value, pos2(foot.x - 4.0, foot.y), Align2::RIGHT_CENTER);
             }
         }
-        numbers.taken
+        numbers
     }
 
     /// Position of the label of the m_s axis: left of the point where the axis leaves the view at the top or at a side.

@@ -68,6 +68,7 @@ impl PlanePanel {
         let painter = ui.painter_at(rect);
         let numbers = chart.axes(&painter, plane, rect, cx.palette);
         painter.add(egui::Shape::Mesh(point_mesh(&mut self.point_mesh, cx, plane, chart, rect)));
+        let numbers = numbers.paint();
         if let Some(test) = test {
             // The part of the matte line on which a highlight may begin (section 5.4.1).
             let along = |percent: f64| (percent / 100.0 * test.matte_length) as f32;

@@ -3,7 +3,8 @@
 use crate::gui::glossary::Term;
 use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::gui::widgets::with_subscripts;
-use egui::{Align2, FontId, Painter, Pos2, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
+use egui::{Align2, FontId, Galley, Painter, Pos2, Rect, Response, Sense, Ui, Vec2, pos2, vec2};
+use std::sync::Arc;
 
 /// A text label with a tooltip.
 pub struct ChartLabel {
@@ -123,10 +124,12 @@ pub struct TickNumbers<'a> {
     pub palette: &'a ThemeColors,
     /// The rectangles of the numbers so far.
     pub taken: Vec<Rect>,
+    /// The numbers so far.
+    pub texts: Vec<Arc<Galley>>,
 }
 
 impl TickNumbers<'_> {
-    /// Paints a number at `at`, moved sideways as far as the view requires.
+    /// Adds a number at `at`, moved sideways as far as the view requires.
     pub fn add(&mut self, value: f32, at: Pos2, anchor: Align2) {
         let font = FontId::proportional(SMALL_PT);
         let galley = self.painter.layout_no_wrap(number_text(value), font, self.palette.secondary);
@@ -134,8 +137,18 @@ impl TickNumbers<'_> {
         else {
             return;
         };
-        self.painter.galley(place.min, galley, self.palette.secondary);
         self.taken.push(place);
+        self.texts.push(galley);
+    }
+
+    /// Paints the numbers, over the points that were painted after the axes. Returns their rectangles.
+    pub fn paint(self) -> Vec<Rect> {
+        let ground = self.palette.panel.gamma_multiply(0.7);
+        for (place, text) in self.taken.iter().zip(self.texts) {
+            self.painter.rect_filled(place.expand2(vec2(1.0, -1.0)), 2.0, ground);
+            self.painter.galley(place.min, text, self.palette.secondary);
+        }
+        self.taken
     }
 }
 

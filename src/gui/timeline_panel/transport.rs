@@ -285,6 +285,8 @@ fn step_field(ui: &mut Ui, cx: &mut PanelContext, replay: &Replay, is_narrow: bo
 fn sentence(ui: &mut Ui, cx: &PanelContext, replay: &Replay, names: &Names, missed: Option<Missed>) {
     let debugger = &cx.state.debugger;
     let text = match replay.last() {
+        // The last step is about some pixel of the split, and says nothing about the result.
+        Some(_) if debugger.stopped().is_none() => "every decision is taken".to_owned(),
         Some(step) => names.step(&step),
         None => "nothing is decided yet".to_owned(),
     };
