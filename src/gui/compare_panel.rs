@@ -190,17 +190,9 @@ fn scores(ui: &mut Ui, cx: &PanelContext, found: &Comparison) {
         let text = |value: Option<f64>| value.map_or("\u{2013}".to_owned(), shortened);
         ui.label(text(figure.pinned));
         ui.label(text(figure.newest));
-        let difference =
-            figure.pinned.zip(figure.newest).map(|(a, b)| b - a).filter(|d| !is_zero(&shortened(*d)));
-        let tone = if difference.is_some() { cx.palette.accent } else { cx.palette.secondary };
-        ui.label(
-            RichText::new(
-                difference.map_or("=".to_owned(), |d| {
-                    format!("{}{}", if d > 0.0 { "+" } else { "" }, shortened(d))
-                }),
-            )
-            .color(tone),
-        );
+        let (text, differs) = difference(figure.pinned, figure.newest);
+        let tone = if differs { cx.palette.accent } else { cx.palette.secondary };
+        ui.label(RichText::new(text).color(tone));
         ui.end_row();
     }
     if let Some(angle) = found.illuminant_deg {
@@ -219,6 +211,22 @@ fn settings(ui: &mut Ui, cx: &PanelContext, found: &Comparison) {
         ui.label(&change.pinned);
         ui.label(&change.newest);
         ui.end_row();
+    }
+}
+
+/// The difference of two figures as text, and whether it is more than what the text leaves out. Figures whose texts differ although the
+/// difference is too small to be shown are nearly the same.
+fn difference(pinned: Option<f64>, newest: Option<f64>) -> (String, bool) {
+    let (pinned, newest) = match (pinned, newest) {
+        (Some(pinned), Some(newest)) => (pinned, newest),
+        (None, None) => return ("=".to_owned(), false),
+        _ => return ("\u{2013}".to_owned(), true),
+    };
+    let text = shortened(newest - pinned);
+    match (is_zero(&text), shortened(pinned) == shortened(newest)) {
+        (false, _) => (format!("{}{text}", if newest > pinned { "+" } else { "" }), true),
+        (true, true) => ("=".to_owned(), false),
+        (true, false) => ("\u{2248}".to_owned(), false),
     }
 }
 
@@ -284,5 +292,17 @@ mod tests {
     fn a_difference_that_is_shown_as_zero_is_none() {
         assert!(is_zero(&shortened(-0.0004)) && is_zero(&shortened(0.0)));
         assert!(!is_zero(&shortened(-0.0006)) && !is_zero(&shortened(1000.0)));
+    }
+
+    #[test]
+    fn figures_with_other_texts_are_not_told_to_be_the_same() {
+        let of = |pinned, newest| difference(Some(pinned), Some(newest));
+        assert_eq!(of(0.5, 0.5), ("=".to_owned(), false));
+        assert_eq!(of(0.99755, 0.99745), ("\u{2248}".to_owned(), false));
+        assert_eq!(of(1.0, 1.25), ("+0.250".to_owned(), true));
+        assert_eq!(
+            (difference(None, None).0, difference(None, Some(1.0)).0),
+            ("=".into(), "\u{2013}".into())
+        );
     }
 }
