@@ -24,6 +24,15 @@ pub(super) fn picture(origin: Origin, options: ReadOptions) -> Result<Picture, S
     let began_at = Instant::now();
     let origin = with_absolute_path(origin);
     let (photo, sha256) = match &origin {
+        Origin::File(path) if path.is_dir() => {
+            return Err(format!("{}: this is a folder; open the photographs in it", path.display()));
+        }
+        Origin::File(path) if !path.exists() => {
+            return Err(format!(
+                "{}: there is no such file; look for it with Ctrl+O, or check its name",
+                path.display()
+            ));
+        }
         Origin::File(path) => {
             let bytes = photo::read_bytes(path).map_err(|error| with_source(&error))?;
             let name = path.display().to_string();
@@ -183,5 +192,12 @@ mod tests {
         let options = ReadOptions { max_megapixels: 0.01, ..ReadOptions::default() };
         let error = picture(Origin::File(tiny.into()), options).unwrap_err();
         assert!(error.contains("178 \u{d7} 150 pixels") && error.contains("open a smaller copy"), "{error}");
+    }
+    #[test]
+    fn a_folder_and_a_missing_file_are_answered_with_what_to_do() {
+        let root = tempfile::tempdir().unwrap();
+        let open = |path: &Path| picture(Origin::File(path.to_owned()), ReadOptions::default()).unwrap_err();
+        assert!(open(root.path()).ends_with("this is a folder; open the photographs in it"));
+        assert!(open(&root.path().join("none.png")).contains("there is no such file"));
     }
 }
