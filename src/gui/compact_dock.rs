@@ -7,7 +7,10 @@ use super::pane::Pane;
 use egui::{Ui, Vec2, vec2};
 
 /// Smallest width and height of the room in which the panels stand as a person arranged them, points.
-const LEAST_ROOM_PT: Vec2 = vec2(760.0, 430.0);
+const LEAST_ROOM_PT: Vec2 = vec2(620.0, 420.0);
+
+/// Smallest area of that room: a narrow one has to be high, and a low one wide, square points.
+const LEAST_AREA: f32 = 400_000.0;
 
 /// All visible panels as tabs of one group. The arrangement that a person made stays as it is.
 #[derive(Default)]
@@ -27,7 +30,7 @@ struct Tabs {
 impl CompactDock {
     /// Whether a room is too small for several panels.
     pub fn is_needed(room: Vec2) -> bool {
-        room.x < LEAST_ROOM_PT.x || room.y < LEAST_ROOM_PT.y
+        room.x < LEAST_ROOM_PT.x || room.y < LEAST_ROOM_PT.y || room.x * room.y < LEAST_AREA
     }
 
     /// Shows the panels that `arranged` shows as tabs of one group.
@@ -60,5 +63,17 @@ impl CompactDock {
         if let Some(tabs) = &mut self.tabs {
             tabs.dock.activate(pane);
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_narrow_room_that_is_high_and_a_low_one_that_is_wide_have_several_panels() {
+        let needed = [[640.0, 870.0], [900.0, 530.0], [700.0, 470.0], [2000.0, 400.0]];
+        let needed = needed.map(|[width, height]| CompactDock::is_needed(vec2(width, height)));
+        assert_eq!(needed, [false, false, true, true]);
     }
 }
