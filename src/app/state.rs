@@ -14,7 +14,7 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 /// What is told in the place of a result where the photograph has none and none is being computed.
-pub const NOT_ANALYZED: &str = "Not analyzed: F5 analyzes the photograph now.";
+pub const NOT_ANALYZED: &str = "Not analyzed: press F5.";
 
 /// Everything that the panels show. Panels read it; only the reducers change it.
 #[derive(Clone, Debug, Default)]

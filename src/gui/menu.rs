@@ -195,7 +195,7 @@ fn read_as(ui: &mut Ui, cx: &mut PanelContext) {
     }
     ui.horizontal(|ui| {
         let tip = "sRGB after the contrast curve of a camera: its slope in the middle. Above 1 shadows are darker and lights brighter; 1 is sRGB alone.";
-        ui.label("contrast").on_hover_text(tip);
+        ui.label("sRGB with contrast").on_hover_text(tip);
         let mut contrast = now.encoding.contrast().unwrap_or(1.0);
         // The value is typed and not dragged, because each value reads the file again.
         let field = egui::DragValue::new(&mut contrast).range(ContrastCurve::CONTRASTS).speed(0.0).update_while_editing(false);
