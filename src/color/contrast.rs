@@ -33,6 +33,11 @@ impl ContrastCurve {
         self.contrast
     }
 
+    /// Whether the curve changes no value.
+    pub fn is_straight(&self) -> bool {
+        self.steepness <= 0.0
+    }
+
     /// The coded value after the curve. Beyond black and white the curve goes on straight.
     pub fn apply(&self, coded: f64) -> f64 {
         if self.contrast >= 1.0 { steeper(coded, self.steepness) } else { flatter(coded, self.steepness) }
@@ -124,6 +129,7 @@ mod tests {
         let curve = ContrastCurve::new(1.3);
         assert!(curve.apply(0.25) < 0.25 && curve.apply(0.75) > 0.75);
         assert!((ContrastCurve::new(1.0).apply(0.3) - 0.3).abs() < 1e-15, "no contrast changes nothing");
+        assert!(ContrastCurve::new(1.0).is_straight() && !ContrastCurve::new(1.01).is_straight());
     }
 
     #[test]

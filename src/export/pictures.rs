@@ -91,7 +91,7 @@ fn residual(input: &PictureInput) -> Raster<[f32; 3]> {
 
 /// Linear counts as sRGB values, with the contrast curve with which the photograph was read; 255 counts and more are white.
 pub(super) fn viewable(counts: &Raster<[f32; 3]>, contrast: Option<ContrastCurve>) -> Raster<[u8; 3]> {
-    match contrast.filter(|curve| curve.contrast() != 1.0) {
+    match contrast.filter(|curve| !curve.is_straight()) {
         None => counts.map(|color| color.map(|value| code_from_linear(value / COUNTS_PER_UNIT))),
         Some(curve) => {
             counts.map(|color| color.map(|value| code_with_contrast(value / COUNTS_PER_UNIT, &curve)))

@@ -39,7 +39,7 @@ impl fmt::Display for EncodingChoice {
 impl EncodingChoice {
     /// sRGB after a camera's contrast curve of this contrast; sRGB alone for 1.
     pub fn of_contrast(contrast: f64) -> Self {
-        if contrast == 1.0 { Self::Srgb } else { Self::Contrast(contrast) }
+        if ContrastCurve::new(contrast).is_straight() { Self::Srgb } else { Self::Contrast(contrast) }
     }
 
     /// Contrast of the camera's contrast curve that was chosen.
