@@ -294,7 +294,7 @@ mod tests {
         fn the_contrast_of_the_curve_is_found_from_planes_through_black(contrast in 0.8f64..1.7) {
             let bodies = [[0.9, 0.3, 0.2], [0.2, 0.7, 0.3], [0.25, 0.35, 0.9]];
             let found = best(contrast, 1.0, &bodies);
-            // Without noise the next contrast that is tried wins: half a step, and what rounding adds.
+            // Without noise the nearest contrast that is tried wins: half a step, and what rounding adds.
             prop_assert!((found.contrast - contrast).abs() < 0.55 * CONTRAST_STEP, "{} instead of {contrast}", found.contrast);
             prop_assert!(found.gain >= 0.0);
         }

@@ -114,12 +114,22 @@ fn viewable_noise(analysis: &Analysis) -> Raster<u8> {
 mod tests {
     use super::*;
     use crate::analysis::Session;
+    use crate::color::linear_from_srgb;
     use crate::intrinsic::Intrinsic;
     use crate::params::Params;
     use crate::trace::Class;
     use std::sync::Arc;
 
     const SIZE: (usize, usize) = (20, 10);
+
+    #[test]
+    fn pictures_have_the_values_of_a_file_that_was_read_with_a_contrast_curve() {
+        let curve = ContrastCurve::new(1.3);
+        let counts = |code: u8| 255.0 * linear_from_srgb(curve.undo(f64::from(code) / 255.0)) as f32;
+        let colors = (0..=255).map(|code: u8| [counts(code); 3]).collect();
+        let shown = viewable(&Raster::from_vec(256, 1, colors).unwrap(), Some(curve));
+        assert!(shown.as_slice().iter().enumerate().all(|(code, shown)| shown.map(usize::from) == [code; 3]));
+    }
 
     /// An image and its analysis with one region, surface reflection of 20 counts, and noise outside of the slice at one pixel.
     fn image_and_analysis() -> (Arc<LinearImage>, Analysis) {
