@@ -4,11 +4,12 @@ use super::resolve::{NoiseFindings, detail_noise, mask_limits, scale_factor, use
 use super::subject::Subject;
 use crate::params::{Baseline, Params, Rules, Setting, UsedParams};
 use crate::photo::{
-    CodingError, LinearImage, MaskLimits, Masks, NoiseCorrelation, NoiseEstimate, ShotNoise, WorkingPicture,
+    ClippedArea, ClippedAreaVerdict, CodingError, LinearImage, MaskLimits, Masks, NoiseCorrelation,
+    NoiseEstimate, ShotNoise, WorkingPicture, clipped_areas,
 };
 use crate::raster::{Blocks, Mask};
 use crate::segment::AnalysisInput;
-use crate::trace::{MasksMade, Recorder};
+use crate::trace::{ClippedAreaJudged, MasksMade, Recorder};
 use std::sync::Arc;
 
 /// What the first stage makes: the masks, the working picture, and the noise of both pictures.
@@ -82,6 +83,8 @@ pub(super) struct MaskKey {
     automatic_intensity: bool,
     /// Whether that noise is at least the error of lossy compression (refinement `coding_error`).
     least_noise_of_coding: bool,
+    /// Whether clipped objects are left out (refinement `clipped_objects`).
+    clipped_objects: bool,
     /// The area of the session.
     area: Option<Arc<Mask>>,
 }
@@ -120,6 +123,7 @@ impl<'a> Preparation<'a> {
             least_noise_of_coding: self.automatic_noise
                 && self.automatic_intensity
                 && self.params.refinements().coding_error,
+            clipped_objects: self.params.refinements().clipped_objects,
             area: self.subject.area.clone(),
         }
     }
@@ -136,15 +140,28 @@ impl<'a> Preparation<'a> {
             masks = Arc::new(Arc::unwrap_or_clone(masks).with_dark_pixels(image, &limits));
             working = working.with_dark_pixels(&masks, &limits);
         }
+        let areas = self.clipped_areas(&working, &limits);
+        if areas.iter().any(|area| area.verdict == ClippedAreaVerdict::Object) {
+            (masks, working) = working.with_objects(masks, &areas);
+        }
         let pixels = Blocks::new(1, image.width(), image.height());
         let sparse = || NoiseEstimate::measure_sparsely(image, &masks, &pixels, factor);
         let detail = if factor > 1 && self.automatic_noise { sparse() } else { None };
         if R::KEEPS {
             let made = masks_made(&working.masks, limits, working.image.pixels.len(), noise.sigma);
             recorder.record(made);
+            areas.iter().for_each(|area| recorder.record(ClippedAreaJudged::from(area)));
         }
         let working_coding = noise.coding.as_ref().map(|coding| coding.averaged(factor));
         Prepared { limits, masks, working: Arc::new(working), noise: Arc::new(noise), working_coding, detail }
+    }
+
+    /// The clipped areas of the working picture that are judged.
+    fn clipped_areas(&self, working: &WorkingPicture, limits: &MaskLimits) -> Vec<ClippedArea> {
+        if !self.params.refinements().clipped_objects {
+            return Vec::new();
+        }
+        clipped_areas(&working.image, &working.masks, limits.clip_threshold)
     }
 
     /// The masks of the photograph, and the working picture.
@@ -181,7 +198,7 @@ pub(super) fn masks_made(masks: &Masks, limits: MaskLimits, pixels: usize, sigma
     let count = |test: &dyn Fn(usize) -> bool| (0..pixels).filter(|&pixel| test(pixel)).count() as u32;
     MasksMade {
         limits,
-        dark: count(&|pixel| masks.dark(pixel)),
+        dark: count(&|pixel| masks.dark(pixel) && !masks.in_clipped_object(pixel)),
         distorted: count(&|pixel| !masks.dark(pixel) && masks.distorted(pixel)),
         sigma,
     }

@@ -42,6 +42,8 @@ pub enum Reason {
     Collinear,
     /// Every band is clipped.
     ClippedAllBands,
+    /// The pixel is that of an object that clips, or of its edge, and of no highlight.
+    ClippedObject,
     /// The pixel lies outside the area that the analysis is restricted to.
     OutsideArea,
     /// The file holds no usable value of the pixel.
@@ -50,7 +52,7 @@ pub enum Reason {
 
 impl Reason {
     /// All reasons, in the order of their definition.
-    pub const ALL: [Self; 12] = [
+    pub const ALL: [Self; 13] = [
         Self::Explained,
         Self::Shadow,
         Self::NoMatteLine,
@@ -61,6 +63,7 @@ impl Reason {
         Self::OtherObject,
         Self::Collinear,
         Self::ClippedAllBands,
+        Self::ClippedObject,
         Self::OutsideArea,
         Self::NoValue,
     ];
@@ -78,6 +81,7 @@ impl Reason {
             Self::OtherObject => "other_object",
             Self::Collinear => "collinear",
             Self::ClippedAllBands => "clipped_all_bands",
+            Self::ClippedObject => "clipped_object",
             Self::OutsideArea => "outside_area",
             Self::NoValue => "no_value",
         }
@@ -147,6 +151,9 @@ impl ReasonInput<'_> {
         }
         if self.masks.invalid(pixel) {
             return Reason::NoValue;
+        }
+        if self.masks.in_clipped_object(pixel) && region.is_none() {
+            return Reason::ClippedObject;
         }
         if self.masks.dark(pixel) && region.is_none() {
             return Reason::Shadow;

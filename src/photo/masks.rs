@@ -36,7 +36,7 @@ impl MaskLimits {
     }
 }
 
-/// The marks of each pixel: dark, clipped, bloomed, invalid, outside.
+/// The marks of each pixel: dark, clipped, bloomed, invalid, outside, clipped object.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Masks {
     flags: Raster<u8>,
@@ -47,6 +47,7 @@ const CLIPPED: u8 = 2;
 const BLOOMED: u8 = 4;
 const INVALID: u8 = 8;
 const OUTSIDE: u8 = 16;
+const OBJECT: u8 = 32;
 
 impl Masks {
     /// Computes the masks of `image`.
@@ -110,7 +111,8 @@ impl Masks {
 
     /// The masks of a working picture: `means` holds the mean of each of `blocks`, whose pixels have the masks `members`. A working
     /// pixel is clipped where its own value is, and distorted where any usable pixel of the block is. The pixel is dark where its
-    /// mean is, invalid where no pixel inside of the area has a value, and outside where no pixel is inside of the area.
+    /// mean is, invalid where no pixel inside of the area has a value, outside where no pixel is inside of the area, and that of a clipped
+    /// object where any usable pixel is.
     pub(super) fn of_blocks(
         members: &Self,
         means: &LinearImage,
@@ -140,10 +142,18 @@ impl Masks {
                     | (u8::from(clipped) * CLIPPED)
                     | (u8::from(bloomed) * BLOOMED)
                     | (u8::from(empty && outside == 0) * INVALID)
+                    | (any & OBJECT)
                     | outside;
             }
         });
         Self { flags }
+    }
+
+    /// Marks `pixels` as those of clipped objects (rule `clipped_objects`).
+    #[must_use]
+    pub fn with_objects(mut self, pixels: impl Iterator<Item = usize>) -> Self {
+        pixels.for_each(|pixel| self.flags[pixel] |= OBJECT);
+        self
     }
 
     /// The marks of the pixels in a rectangle.
@@ -177,17 +187,23 @@ impl Masks {
         self.flags[pixel] == 0
     }
 
-    /// Whether the pixel is excluded from the analysis: dark, invalid, or outside the area. All other pixels are called
-    /// lit.
+    /// Whether the pixel is excluded from the analysis: dark, invalid, outside the area, or of a clipped object. All other pixels are
+    /// called lit.
     #[inline]
     pub fn dark(&self, pixel: usize) -> bool {
-        self.flags[pixel] & (DARK | INVALID | OUTSIDE) != 0
+        self.flags[pixel] & (DARK | INVALID | OUTSIDE | OBJECT) != 0
     }
 
     /// Whether the pixel lies outside the area that the analysis is restricted to.
     #[inline]
     pub fn outside(&self, pixel: usize) -> bool {
         self.flags[pixel] & OUTSIDE != 0
+    }
+
+    /// Whether the pixel is that of a clipped object or of the edge of one (rule `clipped_objects`).
+    #[inline]
+    pub fn in_clipped_object(&self, pixel: usize) -> bool {
+        self.flags[pixel] & OBJECT != 0
     }
 
     /// Whether one of the 8 neighbors of the pixel lies outside the area. The border of the picture is no edge of the area.
@@ -294,6 +310,17 @@ mod tests {
         assert_eq!(row(&Masks::new(&picture, &limits(2))), all);
         assert_eq!(row(&Masks::new(&picture, &limits(3))), [false; 8]);
         assert_eq!(row(&Masks::new(&picture, &limits(9))), [false; 8]);
+    }
+
+    #[test]
+    fn pixels_of_clipped_objects_are_excluded_under_every_minimal_intensity() {
+        let picture = image(&[99.0, 255.0, 99.0], 3);
+        let masks = Masks::new(&picture, &limits(9)).with_objects([1, 2].into_iter());
+        assert_eq!([0, 1, 2].map(|i| masks.dark(i)), [false, true, true]);
+        assert_eq!([0, 1, 2].map(|i| masks.in_clipped_object(i)), [false, true, true]);
+        assert!(masks.clipped(1) && masks.has_value(1));
+        let brighter = masks.with_dark_pixels(&picture, &limits(9));
+        assert!(brighter.in_clipped_object(2) && brighter.dark(2) && brighter.usable(0));
     }
 
     #[test]

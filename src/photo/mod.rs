@@ -5,6 +5,7 @@
 //! upright. The resulting [`Photo`] holds linear counts for the analysis, and the [`Source`], which is needed to write
 //! a picture in the way of the original file.
 
+mod clipped_objects;
 mod coding;
 mod curve;
 mod decode;
@@ -23,6 +24,7 @@ mod plateau;
 mod source;
 mod working;
 
+pub use clipped_objects::{ClippedArea, ClippedAreaVerdict, clipped_areas};
 pub use coding::{CodingCause, CodingError, Compression, LossyCompression};
 pub use curve::ToneCurve;
 pub(crate) use curve::nearest_code;

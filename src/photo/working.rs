@@ -6,7 +6,7 @@
 //! the working pixel has their largest value: the mean of clipped and unclipped values is too small, and would not be
 //! recognized as clipped.
 
-use super::{LinearImage, MaskLimits, Masks};
+use super::{ClippedArea, ClippedAreaVerdict, LinearImage, MaskLimits, Masks};
 use crate::raster::{Blocks, Raster};
 use rayon::prelude::*;
 use std::sync::Arc;
@@ -44,6 +44,23 @@ impl WorkingPicture {
             Arc::new(Arc::unwrap_or_clone(self.masks).with_dark_pixels(&self.image, limits))
         };
         Self { masks, ..self }
+    }
+
+    /// The same working picture, and the `masks` of the photograph, with the pixels of those of its clipped `areas` marked that are objects.
+    #[must_use]
+    pub fn with_objects(self, masks: Arc<Masks>, areas: &[ClippedArea]) -> (Arc<Masks>, Self) {
+        let objects = areas.iter().filter(|area| area.verdict == ClippedAreaVerdict::Object);
+        let working_pixels = || objects.clone().flat_map(|object| object.pixels.iter().copied());
+        if self.blocks.side() == 1 {
+            // The masks of the working picture are those of the photograph; only one of the two remains, so that none is copied.
+            drop(self.masks);
+            let masks = Arc::new(Arc::unwrap_or_clone(masks).with_objects(working_pixels()));
+            return (Arc::clone(&masks), Self { masks, ..self });
+        }
+        let pixels = working_pixels().flat_map(|working_pixel| self.blocks.members(working_pixel));
+        let masks = Arc::new(Arc::unwrap_or_clone(masks).with_objects(pixels));
+        let working = Arc::new(Arc::unwrap_or_clone(self.masks).with_objects(working_pixels()));
+        (masks, Self { masks: working, ..self })
     }
 }
 
@@ -175,6 +192,27 @@ mod tests {
             let changed =
                 WorkingPicture::new(&image, &before, &LIMITS, factor).with_dark_pixels(&after, &darker);
             assert_eq!((changed.masks, changed.image), (made.masks, made.image), "{factor}");
+        }
+    }
+
+    #[test]
+    fn objects_are_marked_in_the_working_picture_and_in_the_photograph() {
+        let pixels = Raster::filled(4, 2, [60.0; 3]);
+        let image = Arc::new(LinearImage::new(pixels, Some(255.0)));
+        let area = |verdict| ClippedArea { pixels: vec![1], clipped: 1, left: 0.0, most_left: 0.2, verdict };
+        for (factor, marked) in [(2, vec![2, 3, 6, 7]), (1, vec![1])] {
+            let masks = Arc::new(Masks::new(&image, &LIMITS));
+            let working = WorkingPicture::new(&image, &masks, &LIMITS, factor);
+            let few = working.clone().with_objects(Arc::clone(&masks), &[area(ClippedAreaVerdict::Few)]);
+            assert_eq!(few.0, masks, "areas that are no objects are not marked");
+            let (masks, working) = working.with_objects(masks, &[area(ClippedAreaVerdict::Object)]);
+            let of = |masks: &Masks, count: usize| -> Vec<usize> {
+                (0..count).filter(|&pixel| masks.in_clipped_object(pixel)).collect()
+            };
+            assert_eq!(of(&masks, 8), marked);
+            assert_eq!(of(&working.masks, working.blocks.columns() * working.blocks.rows()), [1]);
+            let finer = Masks::of_blocks(&masks, &working.image, &LIMITS, &working.blocks);
+            assert!(factor == 1 || finer.in_clipped_object(1));
         }
     }
 

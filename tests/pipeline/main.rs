@@ -11,6 +11,7 @@ mod by_hand;
 mod cache;
 mod cameras;
 mod case_study;
+mod clipped_objects;
 mod common;
 mod decisions;
 mod degenerate;

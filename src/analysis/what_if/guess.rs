@@ -109,7 +109,7 @@ impl Guesses<'_> {
                 direction: Direction::Up,
                 value: clipped as f64 + 1.0,
             }),
-            MaskVerdict::Outside | MaskVerdict::Invalid => {}
+            MaskVerdict::Outside | MaskVerdict::Invalid | MaskVerdict::ClippedObject { .. } => {}
         }
     }
 

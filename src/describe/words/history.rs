@@ -206,6 +206,12 @@ fn masked(verdict: &MaskVerdict) -> String {
         }
         MaskVerdict::Outside => OUTSIDE_AREA.to_owned(),
         MaskVerdict::Invalid => NO_VALUE.to_owned(),
+        MaskVerdict::ClippedObject { clipped, left } => format!(
+            "part of a clipped object of {} or of its edge, no highlight: {} of the surface reflection would be left one pixel farther out, below {}",
+            counted(clipped, "pixel"),
+            percent(left.value),
+            percent(left.limit)
+        ),
         MaskVerdict::Dark { brightness: [from_black, dark] } => {
             format!("dark: {from_black:.1} counts from black, below {dark:.1}")
         }

@@ -20,6 +20,7 @@ pub const fn reason_label(reason: Reason) -> &'static str {
         Reason::OtherObject => "other object",
         Reason::Collinear => "collinear",
         Reason::ClippedAllBands => "clipped in all bands",
+        Reason::ClippedObject => "clipped object",
         Reason::OutsideArea => "outside the area",
         Reason::NoValue => "no value",
     }
@@ -40,6 +41,9 @@ pub const fn reason_meaning(reason: Reason) -> &'static str {
         Reason::OtherObject => "5.5: the clipped highlight of another object than its region's",
         Reason::Collinear => "7.5: the body has the light's color: gray, white, metal",
         Reason::ClippedAllBands => "5.5: nothing of its color is left to go by",
+        Reason::ClippedObject => {
+            "4: an object that clips, such as sky or white paint, or its edge: too abrupt for a highlight"
+        }
         Reason::OutsideArea => OUTSIDE_AREA,
         Reason::NoValue => NO_VALUE,
     }

@@ -174,6 +174,8 @@ events! { $
     Pass "pass" { inline PassBegan(PassBegan) }
     /// The masks were made (section 4).
     Masks "masks" { boxed MasksMade(MasksMade) }
+    /// A clipped area was judged by its edge (section 4).
+    ClippedArea "clipped area" { boxed ClippedAreaJudged(ClippedAreaJudged) }
     /// A grid of windows was laid (section 5.2).
     Windows "windows" { boxed WindowsLaid(WindowsLaid) }
     /// A window was classified (section 5.2.1).

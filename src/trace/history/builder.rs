@@ -5,9 +5,9 @@ use super::facts::{amounts, verdicts};
 use super::growth::{Growth, Reaching, clipped_test, growing_test, highlight_test};
 use super::local::Outside;
 use super::patch::Patch;
-use super::{BorderLimit, HistoryEntry, HistoryKind, Release, SplitStory, Unfit};
+use super::{BorderLimit, HistoryEntry, HistoryKind, MaskVerdict, Release, SplitStory, Unfit};
 use crate::color::{Cylinder, vec3};
-use crate::photo::{LinearImage, Masks};
+use crate::photo::{ClippedAreaVerdict, LinearImage, Masks};
 use crate::raster::{HypothesisId, PixelIndex};
 use crate::reflection::Amounts;
 use crate::trace::replay_state::ReplayState;
@@ -154,6 +154,14 @@ impl<'a> HistoryBuilder<'a> {
             Event::MasksMade(made) => {
                 self.clip_threshold = made.limits.clip_threshold;
                 for verdict in verdicts(self.image, self.masks, &made.limits, self.pixel) {
+                    self.note(step, HistoryKind::Masked(verdict));
+                }
+            }
+            Event::ClippedAreaJudged(judged) => {
+                if judged.verdict == ClippedAreaVerdict::Object
+                    && judged.holds(PixelIndex::from_index(self.pixel))
+                {
+                    let verdict = MaskVerdict::ClippedObject { clipped: judged.clipped, left: judged.left };
                     self.note(step, HistoryKind::Masked(verdict));
                 }
             }

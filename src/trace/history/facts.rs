@@ -7,7 +7,7 @@ use crate::photo::{LinearImage, MaskLimits, Masks};
 use crate::reflection::{AmountRule, Amounts};
 use crate::trace::VectorsFitted;
 
-/// The verdicts of the masks on a pixel.
+/// The verdicts of the masks on a pixel, but that on a clipped object: the numbers that decided are in its event.
 pub(super) fn verdicts(
     image: &LinearImage,
     masks: &Masks,
@@ -32,7 +32,7 @@ pub(super) fn verdicts(
     } else if limits.is_bloomed(clipped_neighbors) {
         found.push(MaskVerdict::Bloomed { neighbors: [clipped_neighbors, limits.bloom_density] });
     }
-    if found.is_empty() {
+    if found.is_empty() && !masks.in_clipped_object(pixel) {
         found.push(MaskVerdict::Believed { brightness, largest });
     }
     found

@@ -18,7 +18,7 @@ mod tests;
 
 pub use split::{BorderLimit, LocalFate, LocalStory, SplitStory, Unfit};
 
-use super::{Class, CodeInterval, Contest, Event, MarkedCluster, PassedOver, Stage, Trace};
+use super::{Class, CodeInterval, Contest, Event, MarkedCluster, Measured, PassedOver, Stage, Trace};
 use crate::color::Trial;
 use crate::photo::{LinearImage, Masks};
 use crate::raster::{HypothesisId, PixelIndex, RegionId};
@@ -211,6 +211,13 @@ pub enum MaskVerdict {
     Outside,
     /// The file holds no usable value.
     Invalid,
+    /// The pixel is that of a clipped object or of its edge (refinement `clipped_objects`).
+    ClippedObject {
+        /// Number of clipped pixels of the object.
+        clipped: u32,
+        /// The share of surface reflection that would be left one pixel farther out, and the share below which the edge is abrupt.
+        left: Measured<f64>,
+    },
     /// The color is too near to black.
     Dark {
         /// Distance from black, counts, and that below which a pixel is dark.

@@ -74,7 +74,7 @@ fn of_pixel(shown: &ResultSnapshot, pixel: PixelIndex) -> Option<Inspection> {
 /// The findings about a pixel that the analysis leaves out from its first stage on; none where it does not.
 pub(super) fn left_out(shown: &ResultSnapshot, pixel: PixelIndex, subject: &str) -> Option<Inspection> {
     let reason = *shown.analysis.intrinsic.reasons.as_slice().get(pixel.index())?;
-    matches!(reason, Reason::OutsideArea | Reason::NoValue).then(|| Inspection {
+    matches!(reason, Reason::OutsideArea | Reason::NoValue | Reason::ClippedObject).then(|| Inspection {
         subject: subject.to_owned(),
         verdict: format!("Left out: {}", reason_label(reason)),
         tone: Tone::Neutral,

@@ -5,6 +5,7 @@ use super::{Inspection, Limits, ThresholdTest, Tone, candidate_tests};
 use crate::color::vec3;
 use crate::describe::Names;
 use crate::describe::grouped;
+use crate::photo::ClippedAreaVerdict;
 use crate::raster::{HypothesisId, PixelIndex, Raster};
 use crate::trace::{
     Class, Contest, Event, FeatureVerdict, HistogramsSearched, HypothesisPassedOver, LocalStart, Measure,
@@ -93,6 +94,9 @@ fn event_verdict(event: &Event) -> (String, Tone) {
         Event::VectorsFitted(fitted) => holds_verdict(fitted.is_judged, fitted.model_fits),
         Event::LocalBegan(began) => of(began.start == LocalStart::Begins, "Begins", "Does not begin"),
         Event::PlausibilityTested(tested) => of(tested.plausible(), "Plausible", "Not plausible"),
+        Event::ClippedAreaJudged(judged) => {
+            of(judged.verdict != ClippedAreaVerdict::Object, "May be a highlight", "Clipped object")
+        }
         Event::RepairTried(tried) => of(tried.verdict == RepairVerdict::Filled, "Filled", "Not filled"),
         other => (capitalized(other.kind().name()), Tone::Neutral),
     }
@@ -144,6 +148,10 @@ fn event_tests(event: &Event, replay: &Replay) -> Vec<ThresholdTest> {
             let tip = "Share of the votes for the light; below the limit no pixel is split locally (beyond section 6).";
             vec![ThresholdTest::at_least("votes", Measured::new(share, tested.least_share), "", tip)]
         }),
+        Event::ClippedAreaJudged(judged) => {
+            let tip = "Share of the surface reflection that would be left one pixel farther out from the clipped area: below the limit its edge is too abrupt for a highlight (beyond section 4).";
+            vec![ThresholdTest::at_least("left one pixel farther out", judged.left, "", tip)]
+        }
         Event::RepairTried(tried) => repair_tests(tried),
         _ => Vec::new(),
     }

@@ -18,14 +18,17 @@ pub(super) const CLASSES: [LegendEntry; 4] = [
 
 /// Color of the pixels outside the area.
 const OUTSIDE_COLOR: [u8; 3] = [96, 96, 96];
+/// Color of the pixels of clipped objects.
+const CLIPPED_OBJECT_COLOR: [u8; 3] = [120, 200, 120];
 /// Color of the pixels without a value.
 const NO_VALUE_COLOR: [u8; 3] = [210, 59, 214];
 
 /// Names, colors and meanings of the masks (section 4). A pixel has the color of the last mask that holds the pixel.
-pub(super) const MASKS: [LegendEntry; 5] = [
+pub(super) const MASKS: [LegendEntry; 6] = [
     LegendEntry::new("dark", [74, 111, 212], "4: too near to black, its color is mostly noise"),
     LegendEntry::new("bloomed", [240, 128, 32], "4: charge spilled over from clipped neighbors"),
     LegendEntry::new("clipped", [250, 226, 70], "4: a band at or above the clipping threshold"),
+    reason(Reason::ClippedObject, CLIPPED_OBJECT_COLOR),
     reason(Reason::NoValue, NO_VALUE_COLOR),
     reason(Reason::OutsideArea, OUTSIDE_COLOR),
 ];
@@ -91,6 +94,7 @@ pub(super) const REASONS: [LegendEntry; Reason::ALL.len() - 1] = [
     reason(Reason::OtherObject, [220, 140, 190]),
     reason(Reason::Collinear, [170, 170, 170]),
     reason(Reason::ClippedAllBands, [250, 226, 70]),
+    reason(Reason::ClippedObject, CLIPPED_OBJECT_COLOR),
     reason(Reason::OutsideArea, OUTSIDE_COLOR),
     reason(Reason::NoValue, NO_VALUE_COLOR),
 ];

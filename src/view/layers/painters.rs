@@ -302,8 +302,10 @@ pub(super) fn masks(&PaintInput { ref base, shown, look, .. }: &PaintInput) -> R
     base.overlaid(look.fill, &legend_styles(&MASKS, look), |x, y| {
         let pixel = y * width + x;
         if area.is_some_and(|area| !area[pixel]) {
-            5
+            6
         } else if masks.invalid(pixel) {
+            5
+        } else if masks.in_clipped_object(pixel) {
             4
         } else if masks.clipped(pixel) {
             3

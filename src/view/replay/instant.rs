@@ -126,7 +126,10 @@ impl Instant {
             Some((pixel, !matches!(step, Step::Refusal { .. })))
         });
         let view = match stage {
-            None | Some(Stage::Masks) => InstantView::Nothing,
+            None => InstantView::Nothing,
+            Some(Stage::Masks) => blob_at_cursor(replay).map_or(InstantView::Nothing, |blob| {
+                InstantView::Roles(RolesView { kinds: roles(replay), blob: Some(blob) })
+            }),
             Some(Stage::Classify | Stage::Merge) => {
                 windows.map_or(InstantView::Nothing, InstantView::Windows)
             }

@@ -3,7 +3,7 @@
 use super::growth_pixels::{
     candidate_pixels, growth_pixels, measured_and_ignored, pixels_of_region, sampled, test_at_cursor,
 };
-use crate::photo::Masks;
+use crate::photo::{ClippedAreaVerdict, Masks};
 use crate::raster::{HypothesisId, Raster};
 use crate::trace::{Class, Event, Grid, MergeTried, RepairVerdict, Replay, Stage, Step, WindowClassified};
 use crate::view::Meaning;
@@ -89,9 +89,13 @@ fn groups(
     }
 }
 
-/// The pixels of the clipped blob that the step taken last judged, and whether the blob is filled.
+/// The pixels of the clipped area that the step taken last judged, and whether the area may be a highlight or is filled.
 pub fn blob_at_cursor(replay: &Replay) -> Option<(Vec<u32>, bool)> {
     let (blob, kept) = match replay.last()? {
+        Step::Event(Event::ClippedAreaJudged(judged)) => {
+            let pixels = judged.pixels.iter().map(|pixel| pixel.get()).collect();
+            return Some((pixels, judged.verdict != ClippedAreaVerdict::Object));
+        }
         Step::Event(Event::RepairTried(tried)) => (tried.blob, tried.verdict == RepairVerdict::Filled),
         _ => return None,
     };
