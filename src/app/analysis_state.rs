@@ -1,6 +1,6 @@
 //! Whether the result that is shown is that of the present parameters, and what stays of an analysis that was given up.
 
-use super::State;
+use super::{Effect, State};
 use crate::raster::Mask;
 use crate::view::ResultSnapshot;
 use std::sync::Arc;
@@ -46,11 +46,19 @@ impl State {
 
     /// Ends the analysis without a result: the last complete one stays.
     pub(super) fn give_up_analysis(&mut self) {
-        (self.jobs.analysis, self.preview) = (None, None);
+        (self.jobs.analysis, self.jobs.recording, self.preview) = (None, None, None);
         // The request has no result, also where its parameters have one.
         self.generation += 1;
         self.keep_complete_result();
         self.give_up_pin();
+    }
+
+    /// Ends the recording of the decisions of the newest result, which stays; returns what stops the worker. Nothing without a recording.
+    pub(super) fn give_up_recording(&mut self) -> Option<Effect> {
+        self.jobs.recording.take()?;
+        // A result that is not that of the last request is waiting for no record.
+        self.generation += 1;
+        Some(Effect::CancelAnalysis)
     }
 
     /// Takes the last complete result for the newest one, where some of the stages of that are still to be computed.

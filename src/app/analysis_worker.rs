@@ -1,15 +1,18 @@
 //! The worker that analyzes. A newer request replaces a waiting request and cancels the request under way; a person can cancel both.
 
+mod observers;
+
 use super::Preview;
 use super::panics::catch_panic;
 use super::report::{Report, Work};
-use crate::analysis::{Analysis, Observer, Session, Stage, StageOutput};
+use crate::analysis::{Analysis, Session, Stage};
 use crate::params::Params;
-use crate::raster::{Blocks, Mask};
+use crate::raster::Mask;
 use crate::trace::Replay;
 use crate::view::{Picture, ResultSnapshot, colors_with_further_regions};
+use observers::{RecordingObserver, RunObserver};
 use std::sync::mpsc::Sender;
-use std::sync::{Arc, Condvar, Mutex, OnceLock, PoisonError};
+use std::sync::{Arc, Condvar, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
 /// A request to analyze a photograph.
@@ -107,12 +110,6 @@ impl LatestRequest {
         waited.unwrap_or_else(PoisonError::into_inner).1.timed_out()
     }
 
-    /// Whether a newer request waits, or the worker is to stop.
-    fn is_superseded(&self) -> bool {
-        let waiting = self.lock();
-        waiting.closed || waiting.request.is_some()
-    }
-
     /// Why the run of the request with this number is to end; none where it is to go on.
     fn interruption(&self, generation: u64) -> Option<Interruption> {
         let waiting = self.lock();
@@ -163,16 +160,15 @@ fn analyze_request(
     let interrupted = || latest_request.interruption(request.generation);
     let Some(shown) = analysis_worker.analyze(request, send, &interrupted) else { return };
     send(Report::Analyzed(Arc::clone(&shown)));
-    // A result that came before its cancellation is recorded like any other.
-    let superseded = || latest_request.is_superseded();
+    let interrupted = || latest_request.interruption(request.generation).is_some();
     if request.tracing == Tracing::AtOnce {
-        analysis_worker.trace(request, &shown, send, &superseded);
+        analysis_worker.trace(request, &shown, send, &interrupted);
     }
     // Scoring and recording take as long as the analysis: they wait until no slider moves.
     let records = request.tracing == Tracing::AtRest;
     if (records || shown.picture.truth.is_some()) && latest_request.is_quiet_for(REST_TIME) {
         if records {
-            analysis_worker.trace(request, &shown, send, &superseded);
+            analysis_worker.trace(request, &shown, send, &interrupted);
         }
         if shown.picture.truth.is_some() {
             shown.measure();
@@ -248,36 +244,27 @@ impl AnalysisWorker {
         Some(shown)
     }
 
-    /// Records the decisions that led to a result, where `request` wants it and it has not been done, and reports a cursor.
+    /// Records the decisions that led to a result, where `request` wants it and it has not been done, and reports the stages meanwhile
+    /// and a cursor at the end. An interrupted recording reports no cursor.
     pub(super) fn trace(
         &mut self,
         request: &AnalysisRequest,
         shown: &ResultSnapshot,
         send: &(dyn Fn(Report) + Sync),
-        superseded: &(dyn Fn() -> bool + Sync),
+        interrupted: &(dyn Fn() -> bool + Sync),
     ) {
         let Some((_, session)) = self.session.as_mut().filter(|_| request.tracing != Tracing::Never) else {
             return;
         };
         if shown.trace.get().is_none() {
-            let Ok((_, trace)) = session.run_traced(&request.params, &mut CancelOnly(superseded)) else {
-                return;
-            };
+            let mut observer = RecordingObserver { generation: request.generation, send, interrupted };
+            let Ok((_, trace)) = session.run_traced(&request.params, &mut observer) else { return };
             shown.trace.get_or_init(|| Arc::new(trace));
         }
         let Some(trace) = shown.trace.get() else { return };
         let mut replay = Replay::new(Arc::clone(trace));
         replay.prepare();
         send(Report::Traced { generation: request.generation, replay: Box::new(replay) });
-    }
-}
-
-/// Stops a run for a newer request, and observes nothing else.
-struct CancelOnly<'a>(&'a (dyn Fn() -> bool + Sync));
-
-impl Observer for CancelOnly<'_> {
-    fn cancelled(&self) -> bool {
-        (self.0)()
     }
 }
 
@@ -301,100 +288,6 @@ fn result_snapshot(
     let area = request.area.clone();
     let shown = ResultSnapshot::new(Arc::clone(&request.picture), request.params, analysis, region_colors);
     ResultSnapshot { generation: request.generation, area, took_ms, ..shown }
-}
-
-/// A run that takes longer than this time shows each stage at the stage's end.
-const SHOW_STAGES_AFTER: Duration = Duration::from_millis(60);
-
-/// Measures the time of each stage, reports the stages, and stops for a newer request.
-struct RunObserver<'a> {
-    request: &'a AnalysisRequest,
-    began_at: Instant,
-    stage_began_at: Option<Instant>,
-    took_ms: [Option<f64>; Stage::ALL.len()],
-    /// The last result with the stages that have been computed anew.
-    partial: Option<Analysis>,
-    last_result: Option<&'a ResultSnapshot>,
-    /// Whether the run has shown no stage yet. Such a run goes on although a newer request waits: otherwise a slider in
-    /// steady motion over a large picture would never show a result.
-    must_show: bool,
-    /// The result for the working picture of the run before.
-    last_preview: Option<&'a Preview>,
-    /// The result for the working picture of this run; none where the working picture is the photograph.
-    preview: Option<Preview>,
-    send: &'a (dyn Fn(Report) + Sync),
-    interrupted: &'a (dyn Fn() -> Option<Interruption> + Sync),
-}
-
-impl Observer for RunObserver<'_> {
-    fn started(&mut self, stage: Stage) {
-        self.stage_began_at = Some(Instant::now());
-        (self.send)(Report::Progress { generation: self.request.generation, stage });
-    }
-
-    fn finished(&mut self, stage: Stage, reused: bool) {
-        let took = self.stage_began_at.take().map(|began_at| began_at.elapsed().as_secs_f64() * 1e3);
-        self.took_ms[stage as usize] = took.filter(|_| !reused);
-    }
-
-    fn working_made(&mut self, analysis: &Analysis, blocks: &Blocks) {
-        let last = self.last_preview.map(|last| &*last.shown);
-        let region_colors = region_colors(analysis, last);
-        let shown = result_snapshot(self.request, analysis.clone(), self.took_ms, region_colors);
-        let preview = Preview { shown: Arc::new(shown), blocks: *blocks };
-        self.preview = Some(preview.clone());
-        (self.send)(Report::Preview(preview));
-        self.must_show = false;
-    }
-
-    fn made(&mut self, output: StageOutput) {
-        let stage = output.stage();
-        if self.preview.is_some() {
-            // The result for the working picture is shown until the whole result is there.
-            return;
-        }
-        let Some(partial) = &mut self.partial else { return };
-        match output {
-            StageOutput::Masks { masks, used } => (partial.masks, partial.used) = (masks, used),
-            StageOutput::Windows(windows) => partial.windows = windows,
-            StageOutput::Areas(areas) => partial.areas = areas,
-            StageOutput::Matte(matte) => partial.matte = matte,
-            StageOutput::Planar(planar) => partial.planar = planar,
-            // Labels and the facts of the regions change together, at the end.
-            StageOutput::Finals(_) | StageOutput::Intrinsic(_) => return,
-        }
-        let anew = self.took_ms[stage as usize].is_some();
-        let Some(last_result) =
-            self.last_result.filter(|_| anew && self.began_at.elapsed() > SHOW_STAGES_AFTER)
-        else {
-            return;
-        };
-        let next = Stage::ALL.iter().copied().find(|&later| later > stage);
-        (self.send)(Report::Analyzed(Arc::new(ResultSnapshot {
-            generation: self.request.generation,
-            picture: Arc::clone(&self.request.picture),
-            params: self.request.params,
-            area: self.request.area.clone(),
-            analysis: partial.clone(),
-            stale_from: next,
-            coverage: last_result.coverage,
-            region_colors: last_result.region_colors.clone(),
-            took_ms: self.took_ms,
-            trace: OnceLock::new(),
-            accuracy: OnceLock::new(),
-            phoenix: OnceLock::new(),
-            reasons: OnceLock::new(),
-        })));
-        self.must_show = false;
-    }
-
-    fn cancelled(&self) -> bool {
-        match (self.interrupted)() {
-            Some(Interruption::Stop) => true,
-            Some(Interruption::Newer) => !self.must_show,
-            None => false,
-        }
-    }
 }
 
 #[cfg(test)]

@@ -217,6 +217,7 @@ impl Application {
         // A series of requests is one job with one beginning, so that the spinner shows the whole wait of a slider's drag.
         let job = self.state.jobs.analysis.unwrap_or_else(Job::now);
         self.state.jobs.analysis = Some(Job { stage: None, ..job });
+        self.state.jobs.recording = None;
         match &mut self.workers {
             Workers::Threads { latest_request, .. } => latest_request.submit(request),
             Workers::Inline(analysis_worker) => {

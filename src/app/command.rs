@@ -158,7 +158,7 @@ pub enum JobCommand {
     Export(Export),
     /// Analyze the open photograph with the present parameters.
     Analyze,
-    /// Cancel the analysis under way. The last complete result stays.
+    /// Cancel the analysis under way, or the recording of its decisions. The last complete result stays.
     CancelAnalysis,
     /// Stop the export under way.
     CancelExport,

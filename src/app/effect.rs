@@ -12,7 +12,7 @@ pub enum Effect {
     Analyze,
     /// Record the decisions of that analysis.
     Trace,
-    /// Cancel the analysis under way.
+    /// Cancel the analysis or the recording under way.
     CancelAnalysis,
     /// Search the parameters that would give a pixel another region.
     FindWhatIf(WhatIfRequest),

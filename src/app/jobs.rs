@@ -9,6 +9,8 @@ use std::time::Instant;
 pub struct JobState {
     /// The analysis under way.
     pub analysis: Option<Job>,
+    /// The recording of the decisions of the newest result, which is complete.
+    pub recording: Option<Job>,
     /// The reading of a photograph, of parameters or of a workspace.
     pub reading: Option<Job>,
     /// The export under way.
@@ -24,7 +26,7 @@ pub struct JobState {
 pub struct Job {
     /// The time at which the work began.
     pub since: Instant,
-    /// Of an analysis: the stage under way.
+    /// Of an analysis or a recording: the stage under way.
     pub stage: Option<Stage>,
     /// Of an export: files written so far, and files in all.
     pub files: Option<(usize, usize)>,

@@ -85,6 +85,13 @@ pub(super) enum Report {
     Analyzed(Arc<ResultSnapshot>),
     /// The result for the working picture, before the pass at full resolution.
     Preview(Preview),
+    /// The recording of the decisions of a result began a stage.
+    Recording {
+        /// Number of the result.
+        generation: u64,
+        /// The stage that begins.
+        stage: Stage,
+    },
     /// The decisions of a result were recorded.
     Traced {
         /// Number of the result.

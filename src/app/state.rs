@@ -182,7 +182,7 @@ impl State {
     /// of one size share, stays.
     pub(super) fn leave_photograph(&mut self) {
         self.notices.retain(|notice| !notice.of_photograph);
-        self.debugger = Debugger::default();
+        (self.debugger, self.jobs.recording) = (Debugger::default(), None);
         (self.preview, self.last_complete) = (None, None);
         self.hover = None;
         self.hover_pixels = Arc::default();

@@ -77,7 +77,7 @@ pub enum Action {
     AnalyzeAll,
     /// Analyze with the present parameters.
     Analyze,
-    /// Cancel the analysis under way.
+    /// Cancel the analysis, or the recording of its decisions.
     CancelAnalysis,
     /// Analyze by a method.
     Method(Method),

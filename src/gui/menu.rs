@@ -355,6 +355,9 @@ fn analyze(ui: &mut Ui, cx: &mut PanelContext) {
     if cx.state.jobs.analysis.is_some() {
         item(ui, cx, "Cancel the analysis", Action::CancelAnalysis, true)
             .on_hover_text("The result before stays.");
+    } else if cx.state.jobs.recording.is_some() {
+        item(ui, cx, "Cancel the recording", Action::CancelAnalysis, true)
+            .on_hover_text("The result stays, without the decisions that led to it.");
     } else {
         item(ui, cx, ANALYZE_NOW, Action::Analyze, cx.state.picture.is_some())
             .on_hover_text("Analyze the photograph with the present parameters.");

@@ -275,9 +275,10 @@ fn answer(cx: &mut PanelContext, text: &str) {
 /// Analyzes, or cancels the analysis or the export, or tells why not.
 fn start_or_cancel(action: Action, cx: &mut PanelContext) {
     let (is_open, is_analyzing) = (cx.state.picture.is_some(), cx.state.jobs.analysis.is_some());
+    let is_cancelable = is_analyzing || cx.state.jobs.recording.is_some();
     match action {
         Action::CancelExport => cx.send(JobCommand::CancelExport),
-        Action::CancelAnalysis if is_analyzing => cx.send(JobCommand::CancelAnalysis),
+        Action::CancelAnalysis if is_cancelable => cx.send(JobCommand::CancelAnalysis),
         Action::CancelAnalysis => answer(cx, "no analysis is under way"),
         _ if is_analyzing => answer(cx, "the analysis is under way"),
         _ if is_open => cx.send(JobCommand::Analyze),

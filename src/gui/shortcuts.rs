@@ -80,7 +80,12 @@ const GENERAL: &[Shortcut] = &[
     key_with_command("Edit", Key::T, Action::FitSkewedT, "Fit a skewed T to the marked pixels"),
     key_alone("Edit", Key::Escape, Action::Escape, "Give up the gesture; select and mark nothing"),
     key_alone("Analyze", Key::F5, Action::Analyze, "Analyze now, with the present parameters"),
-    key_alone("Analyze", Key::Escape, Action::CancelAnalysis, "Cancel the analysis under way"),
+    key_alone(
+        "Analyze",
+        Key::Escape,
+        Action::CancelAnalysis,
+        "Cancel the analysis, or the recording of its decisions",
+    ),
     key_alone("Edit", Key::CloseBracket, Action::Region(true), "Select the next region"),
     key_alone("Edit", Key::OpenBracket, Action::Region(false), "Select the region before"),
     key_alone("Image", Key::Num1, Action::Layer(Layer::Input), "Input"),

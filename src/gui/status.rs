@@ -3,13 +3,14 @@
 
 use super::action::Action;
 use super::theme::SMALL_PT;
-use super::work_shown::PROGRESS_DELAY;
+use super::work_shown::{PROGRESS_DELAY, RECORDING_DELAY};
 use super::{PanelContext, lacking_result};
 use crate::analysis::Stage;
 use crate::app::{Job, JobState};
 use crate::params::Parameter;
 use egui::accesskit::Role;
 use egui::{Align, Layout, RichText, Ui, WidgetInfo};
+use std::time::Duration;
 
 /// Smallest width of a part, points.
 const LEAST_PART_PT: f32 = 44.0;
@@ -112,6 +113,8 @@ fn duration_text(ms: f64) -> String {
 /// Work under way, as the line shows it.
 struct Progress {
     job: Job,
+    /// Time after which the work is shown.
+    delay: Duration,
     words: String,
     /// The share that is done, 0…1; none where that is not known.
     done: Option<f32>,
@@ -122,35 +125,43 @@ struct Progress {
 /// The work that is under way; none where the window waits for nothing.
 fn progress_of(jobs: &JobState) -> Option<Progress> {
     if let Some(job) = jobs.analysis {
-        let stages = Stage::ALL.len() as f32;
-        let words =
-            job.stage.map_or_else(|| "waiting".to_owned(), |stage| format!("analyzing: {}", stage.name()));
-        let done = job.stage.map(|stage| stage as usize as f32 / stages);
         let tip = "Stop the analysis; the result before stays (Esc).";
-        let cancel = Some(("Cancel the analysis", tip, Action::CancelAnalysis));
-        return Some(Progress { job, words, done, cancel });
+        let cancel = ("Cancel the analysis", tip, Action::CancelAnalysis);
+        return Some(staged(job, PROGRESS_DELAY, "analyzing", cancel));
     }
+    let delay = PROGRESS_DELAY;
     if let Some(job) = jobs.reading {
-        return Some(Progress { job, words: "reading".to_owned(), done: None, cancel: None });
+        return Some(Progress { job, delay, words: "reading".to_owned(), done: None, cancel: None });
     }
-    let job = jobs.export?;
-    let done = job.files.map(|(done, total)| done as f32 / total.max(1) as f32);
-    let tip = "Stop writing; nothing is left half written.";
-    let cancel = (!jobs.cancels_export).then_some(("Cancel the export", tip, Action::CancelExport));
-    let words = if jobs.cancels_export { "canceling" } else { "writing" };
-    Some(Progress { job, words: words.to_owned(), done, cancel })
+    if let Some(job) = jobs.export {
+        let done = job.files.map(|(done, total)| done as f32 / total.max(1) as f32);
+        let tip = "Stop writing; nothing is left half written.";
+        let cancel = (!jobs.cancels_export).then_some(("Cancel the export", tip, Action::CancelExport));
+        let words = if jobs.cancels_export { "canceling" } else { "writing" };
+        return Some(Progress { job, delay, words: words.to_owned(), done, cancel });
+    }
+    let tip = "Stop recording the decisions for the timeline; the result stays (Esc).";
+    let cancel = ("Cancel the recording", tip, Action::CancelAnalysis);
+    jobs.recording.map(|job| staged(job, RECORDING_DELAY, "recording", cancel))
 }
 
-/// Shows the progress of work that takes longer than `PROGRESS_DELAY`, or what is not analyzed.
+/// The progress of work that goes through the stages. `verb`: what is done, in a word.
+fn staged(job: Job, delay: Duration, verb: &str, cancel: (&'static str, &'static str, Action)) -> Progress {
+    let words = job.stage.map_or_else(|| "waiting".to_owned(), |stage| format!("{verb}: {}", stage.name()));
+    let done = job.stage.map(|stage| stage as usize as f32 / Stage::ALL.len() as f32);
+    Progress { job, delay, words, done, cancel: Some(cancel) }
+}
+
+/// Shows the progress of work that takes longer than a moment, or what is not analyzed.
 fn progress(ui: &mut Ui, cx: &mut PanelContext) {
-    let Some(Progress { job, words, done, cancel }) = progress_of(&cx.state.jobs) else {
+    let Some(Progress { job, delay, words, done, cancel }) = progress_of(&cx.state.jobs) else {
         if cx.state.lacks_result() {
             lacking_result::show_status(ui, cx);
         }
         return;
     };
     let elapsed = job.since.elapsed();
-    if let Some(rest) = PROGRESS_DELAY.checked_sub(elapsed) {
+    if let Some(rest) = delay.checked_sub(elapsed) {
         ui.ctx().request_repaint_after(rest);
         return;
     }

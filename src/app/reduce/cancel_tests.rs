@@ -117,6 +117,46 @@ fn a_canceled_recording_is_told_to_be_missing_and_can_be_begun_again() {
 }
 
 #[test]
+fn the_recording_of_a_result_that_is_there_can_be_canceled_and_the_result_stays() {
+    let mut application = Application::new(Executor::Inline, || ()).unwrap();
+    let settings = DebugSettings { open: false, ..DebugSettings::default() };
+    application.apply(Command::Debug(DebugCommand::Settings(settings)));
+    application.apply(JobCommand::Open(Origin::File(TINY.into())));
+    let generation = application.state().generation;
+    let begins = |generation| Report::Recording { generation, stage: Stage::Planar };
+    application.take_report(begins(generation + 1));
+    assert!(application.state().jobs.recording.is_none(), "no such result");
+    application.take_report(begins(generation));
+    let job = application.state().jobs.recording.unwrap();
+    assert!(job.stage == Some(Stage::Planar) && !application.state().lacks_trace());
+    application.apply(JobCommand::CancelAnalysis);
+    application.take_report(begins(generation));
+    let state = application.state();
+    assert!(state.jobs.recording.is_none() && state.is_current() && !state.lacks_result());
+    assert!(state.lacks_trace() && state.newest.as_ref().unwrap().generation == generation);
+    application.apply(JobCommand::Analyze);
+    assert!(application.state().is_current() && !application.state().lacks_trace());
+}
+
+#[test]
+fn a_change_and_the_end_of_recording_end_what_is_told_of_it() {
+    let mut application = Application::new(Executor::Inline, || ()).unwrap();
+    application.apply(JobCommand::Open(Origin::File(TINY.into())));
+    let begin = |application: &mut Application| {
+        let generation = application.state().generation;
+        application.take_report(Report::Recording { generation, stage: Stage::Planar });
+        assert!(application.state().jobs.recording.is_some());
+    };
+    begin(&mut application);
+    application.apply(set_noise(4.0));
+    assert!(application.state().jobs.recording.is_none() && application.state().debugger.replay.is_some());
+    begin(&mut application);
+    let settings = DebugSettings { open: false, ..DebugSettings::default() };
+    application.apply(Command::Debug(DebugCommand::Settings(settings)));
+    assert!(application.state().jobs.recording.is_none() && application.state().is_current());
+}
+
+#[test]
 fn a_canceled_export_is_told_to_be_canceled_until_it_has_ended() {
     let mut state = State::default();
     reduce(&mut state, JobCommand::CancelExport);

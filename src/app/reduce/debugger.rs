@@ -1,6 +1,7 @@
 //! The reducer of the debugger's commands, and of the trace of a new result.
 
-use crate::app::{DebugCommand, DebugSettings, Debugger, Difference, Effect, State};
+use crate::analysis::Stage;
+use crate::app::{DebugCommand, DebugSettings, Debugger, Difference, Effect, Job, State};
 use crate::trace::Replay;
 use crate::view::RegionNames;
 use std::sync::Arc;
@@ -28,15 +29,31 @@ pub(super) fn reduce(state: &mut State, command: DebugCommand) -> Vec<Effect> {
 /// Sets the settings; the decisions are recorded when the debugger opens, and are forgotten when the debugger closes.
 fn change_settings(state: &mut State, settings: DebugSettings) -> Vec<Effect> {
     let opened = settings.open && !state.view.debug.open;
+    let mut effects = if opened { vec![Effect::Trace] } else { Vec::new() };
     if !settings.open {
+        effects.extend(state.give_up_recording());
         state.debugger = Debugger::default();
     }
     state.view.debug = settings;
-    if opened { vec![Effect::Trace] } else { Vec::new() }
+    effects
+}
+
+/// Takes the progress of the recording of the newest result. What a canceled recording has still to say is not heard.
+pub(super) fn take_progress(state: &mut State, generation: u64, stage: Stage) {
+    let is_of_newest = generation == state.generation
+        && state.jobs.analysis.is_none()
+        && state.newest.as_ref().is_some_and(|newest| newest.generation == generation);
+    if is_of_newest {
+        let job = state.jobs.recording.unwrap_or_else(Job::now);
+        state.jobs.recording = Some(Job { stage: Some(stage), ..job });
+    }
 }
 
 /// Takes the trace of a new result, and moves the cursor to the place that corresponds to its old one.
 pub(super) fn take_trace(state: &mut State, generation: u64, mut replay: Replay) {
+    if generation == state.generation {
+        state.jobs.recording = None;
+    }
     let newest = state.newest.as_ref().filter(|shown| shown.generation == generation);
     let Some(newest) = newest.filter(|_| state.view.debug.open) else { return };
     let names = RegionNames::new(&replay, &newest.region_colors);

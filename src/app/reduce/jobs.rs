@@ -56,7 +56,9 @@ pub(super) fn reduce(state: &mut State, command: JobCommand) -> Vec<Effect> {
             vec![Effect::Rescue]
         }
         JobCommand::Analyze => analyze(state),
-        JobCommand::CancelAnalysis if state.jobs.analysis.is_none() => Vec::new(),
+        JobCommand::CancelAnalysis if state.jobs.analysis.is_none() => {
+            state.give_up_recording().into_iter().collect()
+        }
         JobCommand::CancelAnalysis => {
             state.give_up_analysis();
             vec![Effect::CancelAnalysis]

@@ -1,6 +1,6 @@
 //! The reducer of the reports of workers.
 
-use super::debugger::take_trace;
+use super::debugger::{self, take_trace};
 use super::edits::{analyze, edit_params, forget_defaults, tell_of_parameters};
 use super::elsewhere::{lack_elsewhere, take_elsewhere, warning_of, with_unused_truth};
 use super::photographs::{keep_open, show_open, take_written};
@@ -77,6 +77,7 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
         }
         Report::Analyzed(shown) => return show_result(state, shown),
         Report::Preview(preview) => show_preview(state, preview),
+        Report::Recording { generation, stage } => debugger::take_progress(state, generation, stage),
         Report::Traced { generation, replay } => take_trace(state, generation, *replay),
         Report::Exporting { done, total } => {
             if let Some(job) = &mut state.jobs.export {

@@ -3,7 +3,7 @@
 use super::shortcut::Shortcut;
 use crate::app::{Direction, State, StepUnit};
 use crate::gui::action::{Action, DebugAction};
-use crate::gui::work_shown::is_work_shown;
+use crate::gui::work_shown::is_cancelable_work_shown;
 use crate::view::Tool;
 use Direction::{Back, Forward};
 use egui::{Context, Event, Id, Key, Modifiers, Rect};
@@ -56,7 +56,7 @@ pub struct KeyListeners {
     pub has_photograph: bool,
     /// Whether Enter closes an outline.
     pub draws_polygon: bool,
-    /// Whether Escape cancels the analysis, which is told to be under way.
+    /// Whether Escape cancels the analysis or the recording, which is told to be under way.
     pub cancels_analysis: bool,
 }
 
@@ -64,7 +64,7 @@ impl KeyListeners {
     /// The listeners of a state, the color space being shown at `color_space_rect`.
     pub fn of(state: &State, color_space_rect: Option<Rect>, track: Id) -> Self {
         let draws_polygon = [state.view.image.tool, state.view.cube.tool].contains(&Tool::Polygon);
-        let cancels_analysis = is_work_shown(state.jobs.analysis.as_ref());
+        let cancels_analysis = is_cancelable_work_shown(&state.jobs);
         let has_photograph = state.picture.is_some();
         Self { color_space_rect, track, has_photograph, draws_polygon, cancels_analysis }
     }

@@ -127,6 +127,40 @@ fn a_window_with_a_result_offers_nothing_to_cancel_and_nothing_to_run_again() {
     assert!(named(&window, Role::Image, "Picture").rect().width() > 100.0);
 }
 
+/// The small photograph with its result, whose decisions have been recorded for a second.
+fn recording() -> State {
+    let mut state = state(&tiny_window()).clone();
+    state.debugger = dichroscope::app::Debugger::default();
+    state.jobs.recording = long_analysis();
+    state
+}
+
+#[test]
+fn a_recording_shows_its_stage_and_can_be_canceled_and_the_result_stays() {
+    let Some(mut window) = with_state(SIZE, recording()) else { return };
+    window.run_steps(3);
+    assert!(says(&window, "recording: planar") && !offers(&window, CANCEL));
+    click(&mut window, Role::Button, "Cancel the recording");
+    assert!(state(&window).jobs.recording.is_none() && state(&window).is_current());
+    assert!(
+        says(&window, "are not recorded") && !says(&window, OTHER_PARAMETERS) && !offers(&window, ANALYZE)
+    );
+    press(&mut window, Modifiers::NONE, Key::F5);
+    assert!(state(&window).debugger.replay.is_some() && !says(&window, "are not recorded"));
+}
+
+#[test]
+fn escape_and_the_menu_cancel_a_recording() {
+    let Some(mut window) = with_state(SIZE, recording()) else { return };
+    window.run_steps(2);
+    press(&mut window, Modifiers::NONE, Key::Escape);
+    assert!(state(&window).jobs.recording.is_none() && says(&window, "are not recorded"));
+    let Some(mut window) = with_state(SIZE, recording()) else { return };
+    window.run_steps(2);
+    choose(&mut window, "Analyze", "Cancel the recording");
+    assert!(state(&window).jobs.recording.is_none() && state(&window).is_current());
+}
+
 #[test]
 fn a_panel_whose_contents_need_more_room_says_inside_of_it_that_its_result_is_older() {
     let Some(mut window) = with_state(SIZE, analyzing()) else { return };
