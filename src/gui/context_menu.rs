@@ -4,6 +4,7 @@ use super::PanelContext;
 use super::action::{Action, CubeAction, LayerFile, PixelSet};
 use super::cube_choices::NamedView;
 use super::pane::Pane;
+use super::popup_scroll::menu_button;
 use super::shortcuts::keys_of;
 use crate::app::{Combine, Edit, ViewCommand};
 use crate::raster::{PixelIndex, RegionId};
@@ -15,7 +16,7 @@ use std::sync::Arc;
 pub fn of_pixel(ui: &mut Ui, cx: &mut PanelContext, pixel: PixelIndex) {
     of_pixel_alone(ui, cx, pixel);
     ui.separator();
-    ui.menu_button("Layer", |ui| {
+    menu_button(ui, "Layer", |ui| {
         for layer in Layer::ALL.into_iter().filter(|&layer| cx.state.lacks(layer).is_none()) {
             let is_shown = cx.state.view.image.layer == layer;
             let keys = keys_of(ui.ctx(), Action::Layer(layer));
@@ -104,7 +105,7 @@ pub fn of_region(ui: &mut Ui, cx: &mut PanelContext, region: RegionId) {
 
 /// Shows the submenu that exports one layer as one file.
 pub fn export_layer(ui: &mut Ui, cx: &mut PanelContext, layer: Layer) {
-    let menu = ui.menu_button(format!("Export {}", layer.name().to_lowercase()), |ui| {
+    let menu = menu_button(ui, format!("Export {}", layer.name().to_lowercase()), |ui| {
         for file in LayerFile::ALL {
             if ui.button(format!("{}\u{2026}", file.name())).clicked() {
                 cx.act(Action::ExportLayer(layer, file));

@@ -15,7 +15,7 @@ pub mod testing;
 mod unique_colors;
 
 use super::cube_choices::NamedView;
-use super::{PanelContext, context_menu, widgets};
+use super::{PanelContext, context_menu, popup_scroll, widgets};
 use crate::app::{Edit, State, ViewCommand};
 use crate::gpu::{Batch, Line, Orbit, Projector, Scene, pick};
 use crate::gui::outline::{Outline, combine_by_keys};
@@ -314,7 +314,7 @@ impl CubePanel {
         }
         let (bin, is_result) = (self.menu_bin, cx.state.followed().is_none());
         let region = bin.filter(|_| is_result).and_then(|bin| self.cloud.region_of(bin));
-        response.context_menu(|ui| context_menu::of_color(ui, cx, bin, region));
+        popup_scroll::context_menu(response, |ui| context_menu::of_color(ui, cx, bin, region));
     }
 
     /// Marks the pixels whose colors lie inside a finished rectangle, lasso or polygon.

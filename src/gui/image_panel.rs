@@ -21,7 +21,7 @@ use super::action::ViewStep;
 use super::keyboard_focus::is_keyboard_owned;
 use super::verdict_strip::StepSentence;
 use super::work_shown::PROGRESS_DELAY;
-use super::{PanelContext, context_menu, lacking_result, start, verdict_strip, widgets};
+use super::{PanelContext, context_menu, lacking_result, popup_scroll, start, verdict_strip, widgets};
 use crate::app::{DebugSettings, JobCommand, ViewCommand};
 use crate::photo::ReadOptions;
 use crate::raster::PixelIndex;
@@ -297,7 +297,7 @@ impl ImagePanel {
             self.menu_pixel = pointer.and_then(|pointer| place.pixel_at(pointer));
         }
         if let Some(pixel) = self.menu_pixel {
-            response.context_menu(|ui| context_menu::of_pixel(ui, cx, pixel));
+            popup_scroll::context_menu(&response, |ui| context_menu::of_pixel(ui, cx, pixel));
         }
         let pointer = ui.ctx().pointer_hover_pos().filter(|_| ui.rect_contains_pointer(place.view));
         pointer.and_then(|pointer| place.pixel_at(pointer))

@@ -1,8 +1,12 @@
 //! The menu bar by the keyboard: F10, and Alt with the first letter of a menu, open menus; the arrow keys to the left and right go on
 //! to the next menu. Within a menu, egui moves the focus by the arrow keys.
 
+use super::popup_scroll::{menu_button, scrolling_within};
 use egui::containers::menu::{MenuButton, MenuState};
 use egui::{Context, FocusDirection, Id, Key, Memory, Modifiers, Popup, Ui};
+
+/// Height of what lies between the bar and the last row of a menu that is as high as the window, points.
+const BELOW_BAR_PT: f32 = 24.0;
 
 /// The menu bar's state between frames.
 #[derive(Default)]
@@ -69,7 +73,9 @@ impl MenuKeys {
 
     /// Shows a menu of the bar.
     pub fn menu(&mut self, ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
-        let (response, _) = MenuButton::new(name).ui(ui, content);
+        // The menu lies below its bar.
+        let room = ui.ctx().content_rect().bottom() - ui.max_rect().bottom() - BELOW_BAR_PT;
+        let (response, _) = MenuButton::new(name).ui(ui, |ui| scrolling_within(ui, room, content));
         let first_letter = name.get(..1).and_then(Key::from_name);
         self.menus.push(Menu {
             popup: Popup::default_response_id(&response),
@@ -147,7 +153,7 @@ impl MenuKeys {
 
 /// Shows an entry of a menu that opens a further menu.
 pub fn submenu(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
-    let id = ui.menu_button(name, content).response.id;
+    let id = menu_button(ui, name, content).response.id;
     ui.data_mut(|data| data.insert_temp(id.with(SUBMENU), true));
 }
 

@@ -50,6 +50,7 @@ mod parameters;
 mod perform;
 mod plane_panel;
 mod pointer_frames;
+mod popup_scroll;
 mod profile_panel;
 mod proposed_path;
 mod regions_panel;

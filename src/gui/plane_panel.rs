@@ -9,7 +9,7 @@ pub mod testing;
 
 use super::action::Action;
 use super::theme::SMALL_PT;
-use super::{PanelContext, context_menu, lacking_result, widgets};
+use super::{PanelContext, context_menu, lacking_result, popup_scroll, widgets};
 use crate::app::Edit;
 use crate::baseline::MarkedSkewedT;
 use crate::gui::outline::{Outline, combine_by_keys};
@@ -147,7 +147,7 @@ impl PlanePanel {
         if let Some(at) = response.interact_pointer_pos().filter(|_| response.secondary_clicked()) {
             self.menu_pixel = self.pixel_near(at, chart, rect);
         }
-        response.context_menu(|ui| {
+        popup_scroll::context_menu(response, |ui| {
             if let Some(pixel) = self.menu_pixel {
                 context_menu::of_pixel_alone(ui, cx, pixel);
                 ui.separator();

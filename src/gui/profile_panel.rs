@@ -2,7 +2,7 @@
 
 mod chart;
 
-use super::{PanelContext, context_menu, widgets};
+use super::{PanelContext, context_menu, popup_scroll, widgets};
 use crate::app::{Edit, ViewCommand};
 use crate::raster::PixelIndex;
 use crate::view::{Item, ProfileLine, ProfileSample, Theme, Tool, profile, profile_ends};
@@ -166,7 +166,7 @@ fn plot(
         }
     }
     if let Some(pixel) = *menu_pixel {
-        response.context_menu(|ui| context_menu::of_pixel_alone(ui, cx, pixel));
+        popup_scroll::context_menu(&response, |ui| context_menu::of_pixel_alone(ui, cx, pixel));
     }
 }
 

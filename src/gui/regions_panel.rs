@@ -5,7 +5,7 @@ mod light_summary;
 mod table_columns;
 
 use super::theme::{SMALL_PT, ThemeColors};
-use super::{PanelContext, context_menu, lacking_result, widgets};
+use super::{PanelContext, context_menu, lacking_result, popup_scroll, widgets};
 use crate::app::Edit;
 use crate::describe::grouped_sentences;
 use crate::intrinsic::{HighlightBranch, RegionReflection};
@@ -175,7 +175,7 @@ impl RegionsPanel {
                     if response.hovered() {
                         hovered = Some(Item::Region(region.id));
                     }
-                    response.context_menu(|ui| context_menu::of_region(ui, cx, region.id));
+                    popup_scroll::context_menu(&response, |ui| context_menu::of_region(ui, cx, region.id));
                     if response.clicked() {
                         let chosen = (selected != Some(region.id)).then_some(Item::Region(region.id));
                         cx.send(Edit::Select(chosen));

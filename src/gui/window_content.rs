@@ -12,6 +12,7 @@ use super::keyboard_focus::KeyboardFocus;
 use super::menu_keys::MenuKeys;
 use super::pane::Pane;
 use super::panel_context::LastHover;
+use super::popup_scroll::limit_lists;
 use super::text_size::TextSize;
 use super::view_export::ViewExporter;
 use super::{
@@ -134,6 +135,7 @@ impl WindowContent {
     /// Carries out the actions of keys and menus, and shows the menu, the panels and what lies over the panels.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         self.keyboard_focus.skip_splitters(ui.ctx());
+        limit_lists(ui);
         self.closing.hold_window(ui.ctx(), cx.state);
         self.take_dropped_and_pasted(ui, cx);
         let mut held_keys = self.handle_keys(ui, cx);

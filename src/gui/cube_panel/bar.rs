@@ -6,6 +6,7 @@ use crate::gpu::Projection;
 use crate::gui::PanelContext;
 use crate::gui::cube_choices::{COLORINGS, CUBE_BOXES, NEEDS_PLANE, NamedView};
 use crate::gui::icons::{self, Icon};
+use crate::gui::popup_scroll::{menu_button, scrolling};
 use crate::gui::widgets::clickable;
 use crate::view::{ColorSpace, CubeSettings, Tool};
 use egui::containers::menu::{MenuButton, MenuConfig};
@@ -52,8 +53,8 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext, camera_controller: &mut CameraCo
         color_by(ui, &mut settings);
         space(ui, &mut settings);
         tools(ui, cx, &mut settings, narrow);
-        open_menu("Show").ui(ui, |ui| shape_checkboxes(ui, &mut settings));
-        ui.menu_button("Views", |ui| view_menu(ui, camera_controller, Plane::of(cx.state), size)).response.on_hover_text(
+        open_menu("Show").ui(ui, |ui| scrolling(ui, |ui| shape_checkboxes(ui, &mut settings)));
+        menu_button(ui, "Views", |ui| view_menu(ui, camera_controller, Plane::of(cx.state), size)).response.on_hover_text(
             "Views with a name: along an axis, onto the selected dichromatic plane, in perspective or not.",
         );
         let lock = icons::button(ui, cx.palette, Icon::Lock(settings.locked), settings.locked, "Lock the view");
@@ -120,7 +121,7 @@ fn combo(ui: &mut Ui, name: &str, current: &str, width: f32, choices: impl FnOnc
 /// Shows the tools as buttons, or as a menu in a narrow view.
 fn tools(ui: &mut Ui, cx: &PanelContext, settings: &mut CubeSettings, narrow: bool) {
     if narrow {
-        ui.menu_button("Tool", |ui| {
+        menu_button(ui, "Tool", |ui| {
             for (tool, _, name, tip) in TOOLS {
                 let name = name.trim_start_matches("Color space: ");
                 if ui.radio(settings.tool == tool, name).on_hover_text(tip).clicked() {

@@ -4,6 +4,7 @@ use super::icons::{self, ToolbarIcon};
 use crate::app::{DebugSettings, State};
 use crate::gui::action::{Action, LayerFile};
 use crate::gui::icons::{Icon, button};
+use crate::gui::popup_scroll::{height_within, scrolling};
 use crate::gui::shortcuts::keys_of;
 use crate::gui::theme::{SMALL_PT, ThemeColors};
 use crate::gui::widgets::{clickable, keep_unless_edited};
@@ -83,7 +84,8 @@ fn layer_menu(
     actions: &mut Vec<Action>,
 ) -> bool {
     let now = if followed { "At the cursor" } else { layer.name() };
-    let combo = ComboBox::from_id_salt(name).width(104.0).height(580.0).selected_text(now);
+    let combo =
+        ComboBox::from_id_salt(name).width(104.0).height(height_within(ui.ctx(), 580.0)).selected_text(now);
     let mut chosen = false;
     let shown = combo.show_ui(ui, |ui| {
         // The whole list is seen in a low window.
@@ -202,7 +204,7 @@ fn display_menu(ui: &mut Ui, palette: &ThemeColors, settings: &mut ImageSettings
     let tip = "Exposure, gamma and opacity, of the display only";
     let button = icons::toggle(ui, palette, ToolbarIcon::Display, changed, "Display", tip);
     let popup = Popup::menu(&button).close_behavior(PopupCloseBehavior::CloseOnClickOutside);
-    popup.show(|ui| {
+    let rows = |ui: &mut Ui| {
         ui.spacing_mut().slider_width = 120.0;
         egui::Grid::new("display").num_columns(2).spacing([8.0, 4.0]).show(ui, |ui| {
             let exposure = Slider::new(&mut settings.exposure_ev, -6.0..=6.0).step_by(0.1).suffix(" EV");
@@ -220,7 +222,8 @@ fn display_menu(ui: &mut Ui, palette: &ThemeColors, settings: &mut ImageSettings
         });
         let note = "Double-click resets. None of this changes the analysis.";
         ui.label(RichText::new(note).size(SMALL_PT).color(palette.secondary));
-    });
+    };
+    popup.show(|ui| scrolling(ui, rows));
 }
 
 /// Shows a slider in a row of the grid; returns whether it was double-clicked, which resets the value.

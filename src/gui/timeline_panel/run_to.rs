@@ -4,6 +4,7 @@ use crate::app::{Command, DebugCommand, Direction, Goal};
 use crate::gui::PanelContext;
 use crate::gui::action::{Action, DebugAction};
 use crate::gui::move_cursor::selected_goal;
+use crate::gui::popup_scroll::menu_button;
 use crate::gui::shortcuts::keys_of;
 use crate::gui::theme::SMALL_PT;
 use crate::trace::Kind;
@@ -31,7 +32,7 @@ fn kinds_of(group: usize) -> impl Iterator<Item = Kind> {
 
 /// Shows the menu's button.
 pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
-    let menu = ui.menu_button("Run to", |ui| {
+    let menu = menu_button(ui, "Run to", |ui| {
         let direction =
             if ui.input(|input| input.modifiers.shift) { Direction::Back } else { Direction::Forward };
         let mut chosen = None;
@@ -54,7 +55,7 @@ pub fn show(ui: &mut Ui, cx: &mut PanelContext) {
         }
         ui.separator();
         for (group, (title, _)) in GROUPS.into_iter().enumerate() {
-            ui.menu_button(title, |ui| {
+            menu_button(ui, title, |ui| {
                 for kind in kinds_of(group) {
                     if ui.button(kind.name()).clicked() {
                         chosen = Some(Goal::Kind(kind));

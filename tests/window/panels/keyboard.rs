@@ -28,6 +28,8 @@ fn a_question_mark_opens_the_list_of_keys_and_escape_closes_it() {
 #[test]
 fn the_theme_is_toggled_by_key_and_by_menu() {
     let mut window = tiny_window();
+    // The whole menu has room.
+    window.set_size(egui::vec2(900.0, 900.0));
     let dark = window.ctx.global_style().visuals.clone();
     press(&mut window, Modifiers::NONE, Key::T);
     assert_eq!(state(&window).view.theme, Theme::Light);

@@ -27,6 +27,7 @@ mod images;
 mod inspector;
 mod keyboard;
 mod lamps;
+mod low_windows;
 mod menus_of_views;
 mod named_marks;
 mod opening;
