@@ -1,6 +1,6 @@
 //! Whether the result that is shown is that of the present parameters, and what stays of an analysis that was given up.
 
-use super::{Effect, State};
+use super::{Effect, Preview, State};
 use crate::raster::Mask;
 use crate::view::ResultSnapshot;
 use std::sync::Arc;
@@ -22,7 +22,8 @@ impl State {
 
     /// Whether an analysis is under way.
     fn is_analyzing(&self) -> bool {
-        self.jobs.analysis.is_some() || self.preview.is_some()
+        let is_awaited = |preview: &Preview| preview.shown.generation >= self.generation;
+        self.jobs.analysis.is_some() || self.preview.as_ref().is_some_and(is_awaited)
     }
 
     /// Whether the photograph has no result for the present parameters and area and none is being computed: the analysis was canceled,
@@ -44,12 +45,15 @@ impl State {
         self.lacks_result() && self.newest.is_some() && !self.shows_pinned()
     }
 
-    /// Ends the analysis without a result: the last complete one stays.
+    /// Ends the analysis without a result: the last complete one stays. Where there is none, what is shown stays: the result for the working
+    /// picture.
     pub(super) fn give_up_analysis(&mut self) {
-        (self.jobs.analysis, self.jobs.recording, self.preview) = (None, None, None);
+        (self.jobs.analysis, self.jobs.recording) = (None, None);
         // The request has no result, also where its parameters have one.
         self.generation += 1;
         self.keep_complete_result();
+        let has_complete = self.newest.as_ref().is_some_and(|newest| newest.stale_from.is_none());
+        self.preview = self.preview.take().filter(|_| !has_complete);
         self.give_up_pin();
     }
 

@@ -1,7 +1,6 @@
 //! The commands of a person. A [`Command`] is the only way in which panels change a [`super::State`]; the reports of workers are
 //! a type of their own, which no panel can make.
 
-use super::photographs::MOST_OTHERS;
 use super::{DebugCommand, Export, Gesture, Question, Severity, Switching};
 use crate::params::{AmbientSetting, Method, Parameter, Params, Reading, Setting, Switch};
 use crate::photo::ReadOptions;
@@ -140,6 +139,8 @@ pub enum JobCommand {
     /// Open several files, in this order, each as what its name says: photographs, of which the last is shown; then a workspace; and
     /// pictures of another program, which are held against the photograph that is shown in the end.
     OpenFiles(Vec<Origin>),
+    /// As [`Self::OpenFiles`], but of several photographs the first that can be read is shown, and the others follow it in their order.
+    OpenFilesFirstShown(Vec<Origin>),
     /// Read a photograph and show it, and then read pictures that another program made of it.
     OpenBeside(Origin, ElsewherePaths),
     /// Read a picture that another program made of the open photograph, and show it.
@@ -169,15 +170,7 @@ pub enum JobCommand {
 impl JobCommand {
     /// Opens the scenes of a set of samples together. The first is shown, and the others follow it in their order.
     pub fn open_samples(set: &SampleSet) -> Self {
-        Self::open_first_shown(set.scenes.iter().map(|&name| Origin::Sample(name.to_owned())).collect())
-    }
-
-    /// Opens several files together. The first photograph is shown, and the others follow it in their order.
-    pub fn open_first_shown(mut files: Vec<Origin>) -> Self {
-        // The last photograph that can be open is shown.
-        let opened = files.len().min(MOST_OTHERS + 1);
-        files[..opened].rotate_left(1.min(opened));
-        Self::OpenFiles(files)
+        Self::OpenFilesFirstShown(set.scenes.iter().map(|&name| Origin::Sample(name.to_owned())).collect())
     }
 }
 

@@ -11,6 +11,8 @@ use std::path::{Path, PathBuf};
 pub struct FilesToOpen {
     /// Photographs, in the order in which they are opened; the last is shown.
     pub photographs: Vec<Origin>,
+    /// Whether the first photograph that can be read is to be opened last and therefore shown; the others follow it in their order.
+    pub shows_first: bool,
     /// Pictures of another program: of the photograph of the workspace, of the last photograph where there is no workspace, of the open
     /// one where there is neither.
     pub elsewhere: ElsewherePaths,
@@ -55,7 +57,7 @@ pub(super) fn files_to_open(origins: Vec<Origin>, has_photograph: bool) -> (File
         notes.push((Severity::Warning, text));
     }
     notes.extend(leave_out(&mut photographs, workspace.is_some()));
-    (FilesToOpen { photographs, elsewhere, workspace }, notes)
+    (FilesToOpen { photographs, shows_first: false, elsewhere, workspace }, notes)
 }
 
 /// The sentences about `count` pictures of another program of one kind, of which `last` is opened.

@@ -69,9 +69,13 @@ fn reason(error: &ReadError) -> String {
 
 /// Reads photographs that are opened together. One that cannot be read does not keep the others from being opened.
 pub(super) fn photographs(files: FilesToOpen) -> Report {
-    let FilesToOpen { photographs, elsewhere, workspace } = files;
+    let FilesToOpen { photographs, shows_first, elsewhere, workspace } = files;
     let read = |origin| picture(origin, ReadOptions::default()).map(Arc::new);
-    Report::OpenedTogether { photographs: photographs.into_iter().map(read).collect(), elsewhere, workspace }
+    let mut photographs: Vec<Result<Arc<Picture>, String>> = photographs.into_iter().map(read).collect();
+    if let Some(first) = photographs.iter().position(Result::is_ok).filter(|_| shows_first) {
+        photographs.rotate_left(first + 1);
+    }
+    Report::OpenedTogether { photographs, elsewhere, workspace }
 }
 
 /// The origin with an absolute path, so that the list of recent photographs is valid in every working directory and names each

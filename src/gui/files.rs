@@ -1,9 +1,10 @@
 //! Dialogs for files: a field for the path, and beside the field the system's own file dialog, where the system has one.
 
-use super::action::{LayerFile, PixelSet};
+use super::action::{Action, LayerFile, PixelSet};
 use super::confirmed_path::{confirmed_path, problem_of};
 use super::dialog::Dialog;
 use super::export_form::ExportForm;
+use super::lacking_result::ANALYZE_NOW;
 use super::proposed_path::{proposed_layer_path, proposed_path, proposed_pixels_path};
 use super::system_dialog::{Answer, SystemDialog, Wanted};
 use super::typed_path::{file_name_span, typed_path};
@@ -260,6 +261,9 @@ impl Dialogs {
         if let Some(waiting) = self.waiting {
             ui.label(RichText::new(waiting.text()).color(cx.palette.secondary));
         }
+        if dialog == Dialog::Export && cx.state.lacks_result() && !cx.state.shows_pinned() {
+            analyze_offer(ui, cx);
+        }
         if !self.problem.is_empty() {
             ui.add(egui::Label::new(RichText::new(&self.problem).color(cx.palette.error)).wrap());
         }
@@ -385,6 +389,18 @@ impl Dialogs {
         }
         ui.ctx().request_repaint();
     }
+}
+
+/// Shows that the present parameters have no result, and the button that analyzes; the button of the status line is under the dialog.
+fn analyze_offer(ui: &mut Ui, cx: &mut PanelContext) {
+    ui.horizontal(|ui| {
+        let button = RichText::new(ANALYZE_NOW).color(cx.palette.accent);
+        let tip = "Analyze the photograph with the present parameters (F5).";
+        if ui.button(button).on_hover_text(tip).clicked() {
+            cx.act(Action::Analyze);
+        }
+        ui.label(RichText::new("The present parameters have no result yet.").color(cx.palette.secondary));
+    });
 }
 
 /// Selects the name of the file in a field that holds a path.

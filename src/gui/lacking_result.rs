@@ -19,8 +19,16 @@ pub fn show_status(ui: &mut Ui, cx: &mut PanelContext) {
     if ui.add(button).on_hover_text(tip).clicked() {
         cx.act(Action::Analyze);
     }
-    let why = "The analysis was canceled, or ended by an error. What is shown of a result belongs to other parameters.";
-    let text = RichText::new("not analyzed").size(SMALL_PT).color(cx.palette.warning);
+    let (text, why) = if cx.state.newest.is_none() && cx.state.preview.is_some() {
+        (
+            "preview",
+            "The analysis was canceled, or ended by an error. What is shown was found in a smaller picture.",
+        )
+    } else {
+        let why = "The analysis was canceled, or ended by an error. What is shown of a result belongs to other parameters.";
+        ("not analyzed", why)
+    };
+    let text = RichText::new(text).size(SMALL_PT).color(cx.palette.warning);
     ui.add(Label::new(text).selectable(false)).on_hover_text(why);
 }
 
@@ -28,6 +36,8 @@ pub fn show_status(ui: &mut Ui, cx: &mut PanelContext) {
 pub fn show_in_place_of_verdict(ui: &mut Ui, cx: &mut PanelContext) {
     let text = if cx.state.newest.is_some() {
         "This result belongs to other parameters."
+    } else if cx.state.preview.is_some() {
+        "This is a preview in larger pixels: the analysis was canceled."
     } else {
         "This photograph is not analyzed."
     };

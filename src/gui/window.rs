@@ -68,7 +68,7 @@ fn first_job(files: Vec<PathBuf>, elsewhere: ElsewherePaths) -> JobCommand {
         Err(none) if none.is_empty() => {
             JobCommand::OpenBeside(Origin::Sample(sample::NAME.to_owned()), elsewhere)
         }
-        Err(several) => JobCommand::open_first_shown(several.into_iter().map(Origin::File).collect()),
+        Err(several) => JobCommand::OpenFilesFirstShown(several.into_iter().map(Origin::File).collect()),
     }
 }
 
@@ -266,9 +266,11 @@ mod tests {
         assert!(matches!(first_job(&["a.dichroscope"]), JobCommand::OpenWorkspace(_)));
         assert!(matches!(first_job(&["a.png"]), JobCommand::OpenBeside(Origin::File(_), _)));
         assert!(matches!(first_job(&[]), JobCommand::OpenBeside(Origin::Sample(_), _)));
-        let JobCommand::OpenFiles(files) = first_job(&["a.png", "b.png", "c.png"]) else { panic!() };
+        let JobCommand::OpenFilesFirstShown(files) = first_job(&["a.png", "b.png", "c.png"]) else {
+            panic!()
+        };
         let names: Vec<String> = files.iter().map(Origin::name).collect();
-        assert_eq!(names, ["b.png", "c.png", "a.png"], "the last file is shown");
+        assert_eq!(names, ["a.png", "b.png", "c.png"]);
     }
 
     #[test]

@@ -20,7 +20,7 @@ use super::{
 };
 use crate::app::{Severity, State, ViewCommand};
 use crate::view::{ProfileLine, Tool};
-use egui::{Context, Event, LayerId, Order, PointerState, Popup, RichText, Ui};
+use egui::{Context, Event, Key, LayerId, Modifiers, Order, PointerState, Popup, RichText, Ui};
 
 /// The panels, and the dialogs that open over the panels.
 #[derive(Default)]
@@ -213,6 +213,10 @@ impl WindowContent {
             self.dialogs.is_open() || self.command_palette.is_open() || self.closing.is_open();
         if !owns_keyboard {
             self.menu_keys.handle(ui.ctx());
+        }
+        // An export of the result may be refused until the present parameters are analyzed.
+        if self.dialogs.is_open() && ui.ctx().input_mut(|input| input.consume_key(Modifiers::NONE, Key::F5)) {
+            self.actions.push(Action::Analyze);
         }
         let held_keys = owns_keyboard.then(|| take_keys(ui.ctx()));
         let (pressed, typed_ahead) =

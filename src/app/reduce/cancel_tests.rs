@@ -85,6 +85,31 @@ fn a_photograph_without_a_result_stays_open_after_a_cancellation_and_a_change_an
 }
 
 #[test]
+fn the_preview_of_a_photograph_without_a_result_stays_after_a_cancellation() {
+    let mut application = Application::new(Executor::Inline, || ()).unwrap();
+    application.apply(JobCommand::Open(Origin::File(TINY.into())));
+    let mut state = application.state().clone();
+    let complete = state.newest.take().unwrap();
+    (state.generation, state.jobs.analysis) = (state.generation + 1, Some(Job::now()));
+    let result_of = |generation| {
+        let (picture, analysis) = (Arc::clone(&complete.picture), complete.analysis.clone());
+        let shown = ResultSnapshot::new(picture, complete.params, analysis, complete.region_colors.clone());
+        Arc::new(ResultSnapshot { generation, ..shown })
+    };
+    let shown = result_of(state.generation);
+    let blocks = shown.analysis.working.blocks;
+    reduce_report(&mut state, Report::Preview(Preview { shown, blocks }));
+    reduce(&mut state, JobCommand::CancelAnalysis);
+    assert!(state.preview.is_some() && state.lacks_result() && state.shown_preview().is_some());
+    reduce(&mut state, JobCommand::Analyze);
+    state.jobs.analysis = Some(Job::now());
+    assert!(!state.lacks_result());
+    let whole = result_of(state.generation);
+    reduce_report(&mut state, Report::Analyzed(whole));
+    assert!(state.preview.is_none() && state.is_current());
+}
+
+#[test]
 fn a_canceled_analysis_of_parameters_that_have_a_result_leaves_that_result_in_force() {
     let (mut application, woken) = application();
     application.apply(JobCommand::Open(Origin::File(TINY.into())));

@@ -56,11 +56,22 @@ fn of_more_photographs_than_can_be_open_the_first_is_shown_too() {
     let names: Vec<String> = (1..=11).map(|number| format!("{number}.png")).collect();
     let origins = names.iter().map(|name| Origin::File(name.into())).collect();
     let mut state = State::default();
-    let effects = reduce(&mut state, JobCommand::open_first_shown(origins));
+    let effects = reduce(&mut state, JobCommand::OpenFilesFirstShown(origins));
     let [Effect::ReadTogether(files)] = effects.as_slice() else { panic!("{effects:?}") };
     let opened: Vec<String> = files.photographs.iter().map(Origin::name).collect();
-    assert_eq!((opened.len(), opened[7].as_str()), (8, "1.png"), "the last is shown");
+    assert!(opened.len() == 8 && opened[0] == "1.png" && files.shows_first);
     assert!(state.notices.iter().any(|notice| notice.text.starts_with("3 photographs (from 9.png on)")));
+}
+
+#[test]
+fn of_several_files_the_first_that_can_be_read_is_shown_and_the_reason_for_the_other_stays() {
+    let folder = folder();
+    let files =
+        ["letter.png", "a.png", "b.png", "first.png"].map(|name| Origin::File(folder.path().join(name)));
+    let mut application = Application::new(Executor::Inline, || ()).unwrap();
+    application.apply(JobCommand::OpenFilesFirstShown(files.into()));
+    assert_eq!(names(application.state()), ["a.png", "b.png", "first.png"]);
+    assert!(tells(application.state(), "letter.png"));
 }
 
 #[test]

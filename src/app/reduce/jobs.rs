@@ -6,7 +6,7 @@ use super::reports::reading_of;
 use crate::app::files_to_open::files_to_open;
 use crate::app::{Effect, FilesToOpen, JobCommand, Severity, State};
 use crate::photo::ReadOptions;
-use crate::view::ElsewherePaths;
+use crate::view::{ElsewherePaths, Origin};
 
 /// Starts or stops work in the background.
 pub(super) fn reduce(state: &mut State, command: JobCommand) -> Vec<Effect> {
@@ -15,15 +15,10 @@ pub(super) fn reduce(state: &mut State, command: JobCommand) -> Vec<Effect> {
             state.restoring = None;
             vec![Effect::Read(origin, ReadOptions::default())]
         }
-        JobCommand::OpenFiles(origins) => {
-            let (files, notes) = files_to_open(origins, state.picture.is_some());
-            for (severity, text) in notes {
-                state.notify_of_files(severity, text);
-            }
-            read_files(state, files)
-        }
+        JobCommand::OpenFiles(origins) => open_files(state, origins, false),
+        JobCommand::OpenFilesFirstShown(origins) => open_files(state, origins, true),
         JobCommand::OpenBeside(origin, elsewhere) => {
-            read_files(state, FilesToOpen { photographs: vec![origin], elsewhere, workspace: None })
+            read_files(state, FilesToOpen { photographs: vec![origin], elsewhere, ..FilesToOpen::default() })
         }
         JobCommand::OpenElsewhere(kind, path) if state.picture.is_none() => {
             let text = format!(
@@ -70,13 +65,22 @@ pub(super) fn reduce(state: &mut State, command: JobCommand) -> Vec<Effect> {
     }
 }
 
+/// Opens files together, each as what it is by its name. `shows_first`: whether the first photograph is to be shown and not the last.
+fn open_files(state: &mut State, origins: Vec<Origin>, shows_first: bool) -> Vec<Effect> {
+    let (files, notes) = files_to_open(origins, state.picture.is_some());
+    for (severity, text) in notes {
+        state.notify_of_files(severity, text);
+    }
+    read_files(state, FilesToOpen { shows_first, ..files })
+}
+
 /// Reads files that are opened together: photographs first, then the rest.
 fn read_files(state: &mut State, files: FilesToOpen) -> Vec<Effect> {
-    let FilesToOpen { photographs, elsewhere, workspace } = files;
-    if !photographs.is_empty() {
+    if !files.photographs.is_empty() {
         state.restoring = None;
-        return vec![Effect::ReadTogether(FilesToOpen { photographs, elsewhere, workspace })];
+        return vec![Effect::ReadTogether(files)];
     }
+    let FilesToOpen { elsewhere, workspace, .. } = files;
     match workspace {
         Some(path) => vec![Effect::ReadWorkspace { path, elsewhere }],
         None => reading_of(&elsewhere, true),

@@ -162,6 +162,27 @@ fn escape_and_the_menu_cancel_a_recording() {
 }
 
 #[test]
+fn the_export_dialog_offers_to_analyze_what_has_no_result_by_its_button_and_by_f5() {
+    for by_key in [false, true] {
+        let Some(mut window) = with_state(SIZE, analyzing()) else { return };
+        window.run_steps(2);
+        press(&mut window, Modifiers::NONE, Key::Escape);
+        assert!(state(&window).lacks_result());
+        press(&mut window, Modifiers::COMMAND, Key::E);
+        assert!(says(&window, "present parameters have no result"));
+        if by_key {
+            press(&mut window, Modifiers::NONE, Key::F5);
+        } else {
+            let button = window.get_all_by_role_and_label(Role::Button, ANALYZE).last().unwrap();
+            button.click();
+            window.run_steps(3);
+        }
+        assert!(state(&window).is_current() && !says(&window, "present parameters have no result"));
+        assert!(says(&window, "Path"), "the dialog stays");
+    }
+}
+
+#[test]
 fn a_panel_whose_contents_need_more_room_says_inside_of_it_that_its_result_is_older() {
     let Some(mut window) = with_state(SIZE, analyzing()) else { return };
     for pane in [Pane::Regions, Pane::Inspector, Pane::Plane] {
