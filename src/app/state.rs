@@ -4,6 +4,7 @@ use super::awaited::{AfterPin, Awaited};
 use super::{
     Debugger, Document, History, JobState, OpenPhotograph, Preview, ViewSettings, WhatIfJob, Workspace,
 };
+use crate::color::ContrastCurve;
 use crate::raster::{PixelIndex, RegionId};
 use crate::trace::Replay;
 use crate::view::{
@@ -98,6 +99,11 @@ impl State {
     /// Whether the panels show the pinned result in place of the newest.
     pub fn shows_pinned(&self) -> bool {
         self.view.show_pinned && self.pinned.is_some()
+    }
+
+    /// The contrast curve with which the open photograph was read, which the views apply again; none without one.
+    pub fn contrast(&self) -> Option<ContrastCurve> {
+        self.picture.as_ref().and_then(|picture| picture.photo.image.contrast)
     }
 
     /// The result of the newest run: that for the working picture, until the whole result is there. What is in working pixels or in no

@@ -12,6 +12,7 @@ use super::theme::SMALL_PT;
 use super::{PanelContext, context_menu, lacking_result, popup_scroll, widgets};
 use crate::app::Edit;
 use crate::baseline::MarkedSkewedT;
+use crate::color::ContrastCurve;
 use crate::gui::outline::{Outline, combine_by_keys};
 use crate::params::Method;
 use crate::raster::{PixelIndex, RegionId};
@@ -56,7 +57,7 @@ pub struct PlanePanel {
 
 /// The points as a mesh, with the inputs that the mesh was made for.
 struct PointMesh {
-    inputs: (Chart, Rect, bool, Theme),
+    inputs: (Chart, Rect, bool, Theme, Option<ContrastCurve>),
     named_marks: Arc<NamedMarks>,
     mesh: Arc<egui::Mesh>,
     /// Where the points lie, for labels that keep away from points.
@@ -245,7 +246,8 @@ fn point_mesh(
 ) -> Arc<egui::Mesh> {
     let by_label = cx.state.view.plane.color_by_label;
     let own = cx.state.focus_color();
-    let inputs = (chart, rect, by_label, cx.state.view.theme);
+    let contrast = cx.state.contrast();
+    let inputs = (chart, rect, by_label, cx.state.view.theme, contrast);
     let named = &cx.state.document.selection.named;
     let is_same = |known: &&PointMesh| known.inputs == inputs && Arc::ptr_eq(&known.named_marks, named);
     if let Some(point_mesh) = cached.as_ref().filter(is_same) {
@@ -264,7 +266,7 @@ fn point_mesh(
             } else if by_label {
                 kinds::color_of(point, own, cx.state.view.theme)
             } else {
-                widgets::own_color(point.color)
+                widgets::own_color(point.color, contrast)
             };
             let side = 1.7 + 0.5 * (point.count as f32).ln();
             mesh.add_colored_rect(Rect::from_center_size(at, vec2(side, side)), color);

@@ -1,6 +1,7 @@
 //! Small widgets and formats that several panels share.
 
 use super::theme::{BODY_PT, SMALL_PT, ThemeColors, heading_font, subscript_font};
+use crate::color::{ContrastCurve, srgb_from_linear};
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Align, Color32, FontId, Layout, Response, RichText, Sense, Ui, vec2};
 
@@ -145,15 +146,26 @@ pub fn color([r, g, b]: [u8; 3]) -> Color32 {
     Color32::from_rgb(r, g, b)
 }
 
-/// The sRGB color of linear counts; 255 counts are full scale.
-pub fn own_color(counts: [f32; 3]) -> Color32 {
-    let [r, g, b] = counts.map(|v| egui::ecolor::gamma_u8_from_linear_f32((v / 255.0).clamp(0.0, 1.0)));
+/// The sRGB color of linear counts, of which 255 are full scale, with the contrast curve of the camera where the photograph was read with one.
+pub fn own_color(counts: [f32; 3], contrast: Option<ContrastCurve>) -> Color32 {
+    let [r, g, b] = counts.map(|v| {
+        let coded = f64::from(srgb_from_linear((v / 255.0).clamp(0.0, 1.0)));
+        (255.0 * contrast.map_or(coded, |curve| curve.apply(coded))).round() as u8
+    });
     Color32::from_rgb(r, g, b)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn an_own_color_has_the_contrast_curve_of_the_photograph() {
+        let counts = [20.0, 128.0, 255.0];
+        let [plain, curved] = [None, Some(ContrastCurve::new(1.3))].map(|curve| own_color(counts, curve));
+        assert_eq!(plain, Color32::from_rgb(79, 188, 255));
+        assert!(curved.r() < plain.r() && curved.g() > plain.g() && curved.b() == 255, "{curved:?}");
+    }
 
     #[test]
     fn numbers_have_a_sign_unless_they_are_shown_as_zero() {

@@ -241,7 +241,10 @@ impl PointStyle<'_> {
         let share = (pixels as f32).ln_1p() / (self.fullest as f32).ln_1p().max(1e-6);
         let of_mark = self.mark_colors.get(bin).copied().flatten();
         let color = of_mark.unwrap_or_else(|| match color_by {
-            ColorBy::Own => crate::gui::widgets::own_color(counts),
+            ColorBy::Own => {
+                let contrast = self.inputs.picture.photo.image.contrast;
+                crate::gui::widgets::own_color(counts, contrast)
+            }
             ColorBy::Region => self.region_color(bin),
             ColorBy::Class => self
                 .majorities

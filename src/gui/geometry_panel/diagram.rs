@@ -166,7 +166,10 @@ fn paint_picture(
             200.0 * (point.body * body[band] + 1.4 * point.surface * surface[band])
         });
         let at = center + vec2(point.at[0], -point.at[1]) * radius;
-        mesh.add_colored_rect(Rect::from_center_size(at, Vec2::splat(side)), widgets::own_color(counts));
+        mesh.add_colored_rect(
+            Rect::from_center_size(at, Vec2::splat(side)),
+            widgets::own_color(counts, None),
+        );
     }
     painter.add(Shape::mesh(mesh));
     let below = pos2(center.x, center.y + radius + 2.0);

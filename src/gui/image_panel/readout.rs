@@ -199,7 +199,7 @@ pub fn show(ui: &mut Ui, state: &State, palette: &ThemeColors, is_low: bool) {
     strip.widget_info(|| WidgetInfo::labeled(Role::Label, true, sentence(&values)));
     let swatches = [
         None,
-        readout.as_ref().map(|readout| widgets::own_color(readout.color)),
+        readout.as_ref().map(|readout| widgets::own_color(readout.color, state.contrast())),
         readout.as_ref().and_then(|readout| readout.chip).map(widgets::color),
         None,
         None,

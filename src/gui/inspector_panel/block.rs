@@ -64,7 +64,12 @@ fn color_and_amounts(ui: &mut Ui, cx: &PanelContext, pixel: PixelIndex) {
     let Some(reading) = cx.state.reading_of(pixel) else { return };
     let quiet = |text: String| RichText::new(text).size(SMALL_PT).color(cx.palette.secondary);
     ui.horizontal_wrapped(|ui| {
-        widgets::chip(ui, cx.palette, widgets::own_color(reading.color), "the pixel's color");
+        widgets::chip(
+            ui,
+            cx.palette,
+            widgets::own_color(reading.color, cx.state.contrast()),
+            "the pixel's color",
+        );
         let [r, g, b] = reading.color.map(|band| widgets::signed(f64::from(band), 1));
         ui.label(quiet(format!("{r} {g} {b} counts")));
         let Some(analyzed) = &reading.analyzed else { return };

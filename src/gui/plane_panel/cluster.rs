@@ -160,7 +160,7 @@ fn paint_points(painter: &Painter, cx: &PanelContext, cluster: &Cluster, chart: 
     let own = color(cx, cluster);
     let mut mesh = egui::Mesh::default();
     for (place, measured, _) in &cluster.points {
-        let point_color = if by_label { own } else { widgets::own_color(*measured) };
+        let point_color = if by_label { own } else { widgets::own_color(*measured, cx.state.contrast()) };
         mesh.add_colored_rect(
             Rect::from_center_size(chart.screen(*place, rect), vec2(2.2, 2.2)),
             point_color,
