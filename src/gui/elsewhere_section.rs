@@ -59,9 +59,9 @@ impl ElsewhereSection {
             None => drop(ui.label(secondary(cx, "comparing\u{2026}"))),
             Some(Err(reason)) => drop(ui.label(RichText::new(reason).color(cx.palette.error))),
             Some(Ok(held)) => {
-                table(ui, cx, "against this result", &held.agreement);
+                table(ui, cx, "agreement with this result", &held.agreement);
                 if !held.scores.is_empty() {
-                    table(ui, cx, "against the ground truth", &held.scores);
+                    table(ui, cx, "compared with the ground truth", &held.scores);
                 }
             }
         }
@@ -72,7 +72,7 @@ impl ElsewhereSection {
 fn hint(ui: &mut Ui, cx: &mut PanelContext) {
     ui.label(secondary(
         cx,
-        "A label map or a diffuse picture of another program is held against this result.",
+        "A label map or a diffuse picture of another program is compared with this result.",
     ));
     ui.horizontal_wrapped(|ui| {
         for (kind, text) in [
@@ -110,7 +110,7 @@ fn file(ui: &mut Ui, cx: &mut PanelContext, elsewhere: &Elsewhere, kind: Elsewhe
         }
         if ui
             .button("Close")
-            .on_hover_text(format!("No longer hold this {} against results.", kind.name()))
+            .on_hover_text(format!("No longer compare this {} with results.", kind.name()))
             .clicked()
         {
             cx.send(ViewCommand::CloseElsewhere(kind));

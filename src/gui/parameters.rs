@@ -58,8 +58,8 @@ fn method(ui: &mut Ui, cx: &mut PanelContext) {
         if ui.available_width() >= NARROW_PT {
             label(
                 ui,
-                "held against",
-                "What the paper is held against: earlier methods. The skewed T by hand is fitted to the marked area, the others find regions alone.",
+                "or earlier",
+                "Earlier methods, to compare the paper's with. The skewed T by hand is fitted to the marked area, the others find regions alone.",
             );
         }
         methods(ui, cx, &[Method::ByHand, Method::Phoenix, Method::TopDown]);

@@ -78,7 +78,7 @@ fn parts(cx: &PanelContext) -> Vec<StatusPart> {
         let regions = &shown.analysis.intrinsic.regions;
         let misfits = regions.iter().filter(|region| !region.model_fits()).count();
         let text = regions_and_coverage(regions.len(), misfits, shown.coverage);
-        let tip = "Regions, those that the model does not fit, and the share of the lit pixels in regions.";
+        let tip = "Regions, those that the model does not fit, and the share of the lit pixels that lie in regions.";
         parts.push(StatusPart { text, tip: tip.to_owned(), is_bad: misfits > 0 });
         // Until the last stage is there, the sum would be the time of some of them; where no stage ran anew, that of none.
         let has_run = shown.took_ms.iter().any(Option::is_some);
@@ -97,7 +97,7 @@ fn regions_and_coverage(regions: usize, misfits: usize, coverage: f64) -> String
         some => format!(", {some} do not fit"),
     };
     let regions = crate::describe::counted(regions, "region");
-    format!("{regions}{misfits}, {:.1} %", 100.0 * coverage)
+    format!("{regions}{misfits}, {:.1} % of lit pixels", 100.0 * coverage)
 }
 
 /// A duration of `ms` milliseconds with two or three digits: in seconds from one second on.
@@ -188,9 +188,9 @@ mod tests {
 
     #[test]
     fn regions_that_do_not_fit_are_named_before_the_coverage() {
-        assert_eq!(regions_and_coverage(7, 6, 0.991), "7 regions, 6 do not fit, 99.1 %");
-        assert_eq!(regions_and_coverage(7, 1, 1.0), "7 regions, 1 does not fit, 100.0 %");
-        assert_eq!(regions_and_coverage(1, 0, 0.5), "1 region, 50.0 %");
+        assert_eq!(regions_and_coverage(7, 6, 0.991), "7 regions, 6 do not fit, 99.1 % of lit pixels");
+        assert_eq!(regions_and_coverage(7, 1, 1.0), "7 regions, 1 does not fit, 100.0 % of lit pixels");
+        assert_eq!(regions_and_coverage(1, 0, 0.5), "1 region, 50.0 % of lit pixels");
         let texts = [47434.9, 1234.0, 171.2, 32.71].map(duration_text);
         assert_eq!(texts, ["47 s", "1.2 s", "171 ms", "32.7 ms"]);
     }

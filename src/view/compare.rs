@@ -204,7 +204,7 @@ fn figures(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Vec<Figure> {
     let of_results = [
         both("regions", "", &|shown| Some(regions(shown) as f64)),
         both("regions with a highlight", "", &|shown| Some(highlights(shown) as f64)),
-        both("coverage", "%", &|shown| Some(100.0 * shown.coverage)),
+        both("lit pixels in regions", "%", &|shown| Some(100.0 * shown.coverage)),
         both("fit error", "counts", &fit_error_counts),
         both("light R", "", &|shown| shown.analysis.illuminant.map(|light| light.direction[0])),
         both("light G", "", &|shown| shown.analysis.illuminant.map(|light| light.direction[1])),

@@ -158,9 +158,9 @@ fn score_clause(shown: &ResultSnapshot) -> Option<Clause> {
     let scores = &shown.accuracy()?.scores;
     let gain = scores.psnr_body? - scores.psnr_nothing?;
     let text = if gain < 0.0 {
-        format!("the body image is {:.1} dB worse than doing nothing", -gain)
+        format!("the body image is {:.1} dB worse than the photograph", -gain)
     } else {
-        format!("the body image is {gain:.1} dB better")
+        format!("the body image is {gain:.1} dB better than the photograph")
     };
     Some(Clause { text, subject: ClauseSubject::Layer(Layer::Body), is_bad: gain < 0.0 })
 }

@@ -131,7 +131,7 @@ fn basis_text(light: &Illuminant, findings: &LightFindings) -> String {
         .map_or_else(|| from.clone(), |degrees| format!("{from}, \u{b1}{degrees:.1}\u{b0}"))
 }
 
-/// Shows the errors against the ground truth, and in parentheses the error of the unchanged photograph.
+/// Shows the errors against the ground truth, and beside the score of the body image that of the unchanged photograph.
 fn accuracy(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot) {
     let Some(scores) = shown.accuracy().map(|accuracy| &accuracy.scores) else { return };
     let fact = |ui: &mut Ui, name: &str, value: String, tip: &str| {
@@ -145,21 +145,21 @@ fn accuracy(ui: &mut Ui, cx: &PanelContext, shown: &ResultSnapshot) {
     };
     if shown.analysis.illuminant.is_some() {
         let tip = "Angle between the light found and the scene's true light.";
-        fact(ui, "off by", format!("{:.2}\u{b0}", scores.illum_deg), tip);
+        fact(ui, "light off by", format!("{:.2}\u{b0}", scores.illum_deg), tip);
     }
     if let Some(angle) = scores.body_deg {
         let tip = "Mean angle between the regions' body vectors and the true ones.";
-        fact(ui, "body", format!("{angle:.3}\u{b0}"), tip);
+        fact(ui, "body vectors off by", format!("{angle:.3}\u{b0}"), tip);
     }
     if let (Some(body), Some(nothing)) = (scores.psnr_body, scores.psnr_nothing) {
-        let text = format!("{body:.1} dB ({nothing:.1})");
+        let text = format!("{body:.1} dB, doing nothing {nothing:.1} dB");
         if body < nothing {
-            let tip = "Worse than the unchanged photograph, whose peak signal to noise ratio stands in parentheses.";
-            let text = RichText::new(format!("{text}, worse than doing nothing")).color(cx.palette.warning);
+            let tip = "Peak signal to noise ratio of the body image inside objects, lower than that of the unchanged photograph (doing nothing).";
+            let text = RichText::new(format!("body image {text}: worse")).color(cx.palette.warning);
             ui.label(text).on_hover_text(tip);
         } else {
-            let tip = "Peak signal to noise ratio of the body image inside objects; in parentheses that of doing nothing.";
-            fact(ui, "", text, tip);
+            let tip = "Peak signal to noise ratio of the body image inside objects, higher is better. Doing nothing: that of the unchanged photograph.";
+            fact(ui, "body image", text, tip);
         }
     }
 }

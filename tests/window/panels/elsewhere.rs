@@ -49,8 +49,8 @@ fn a_label_map_is_opened_from_the_menu_and_compared_in_every_place() {
     labels.dedup();
     let count = labels.iter().filter(|label| **label != 0).count();
     assert!(says(&window, &format!("label map labels.png, {count} label")));
-    assert!(says(&window, "against this result") && says(&window, "1.000") && says(&window, "100.0"));
-    assert!(says(&window, "against the ground truth") && says(&window, "doing nothing"));
+    assert!(says(&window, "agreement with this result") && says(&window, "1.000") && says(&window, "100.0"));
+    assert!(says(&window, "compared with the ground truth") && says(&window, "doing nothing"));
     assert!(!says(&window, "psnr_body"), "there is no diffuse picture");
     click(&mut window, Role::Button, "Other borders");
     assert_eq!(state(&window).view.image.layer, Layer::OtherBorders);
