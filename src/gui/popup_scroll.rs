@@ -29,7 +29,7 @@ pub fn scrolling<R>(ui: &mut Ui, rows: impl FnOnce(&mut Ui) -> R) -> R {
 pub fn scrolling_within<R>(ui: &mut Ui, room: f32, rows: impl FnOnce(&mut Ui) -> R) -> R {
     // A bar that appears under the pointer alone would not tell that there are further rows.
     ui.spacing_mut().scroll = ScrollStyle::solid();
-    // egui gives a new popup 400 points, whatever the window has room for.
+    // egui gives a new popup the height of `Spacing::default_area_size`, whatever the window has room for.
     ui.set_max_height(room.max(40.0));
     let area = ScrollArea::vertical().max_height(room.max(40.0));
     let shown = area.show(ui, |ui| {

@@ -37,6 +37,8 @@ const LEAST_CONTRAST: f64 = 0.2;
 const LEAST_RISE: f64 = 0.02;
 /// Most that an edge leaves one pixel farther out, as a share: lens, demosaicing and compression blur it.
 const MOST_LEFT_OF_AN_EDGE: f64 = 0.25;
+/// The same of an area of any radius in a picture with objects.
+const MOST_LEFT_BESIDE_OBJECTS: f64 = 0.2;
 /// 2 ln P for the brightest highlight, P = 20.
 const FALL: f64 = 6.0;
 /// Least share of the clipped pixels of all judged areas that lie in areas with abrupt edges, if these are objects.
@@ -110,7 +112,7 @@ fn judge(areas: &mut [ClippedArea], pixels: usize) {
         abrupt > 0.0 && abrupt >= LEAST_OF_CLIPPED * all && abrupt >= LEAST_OF_PICTURE * pixels as f64;
     for area in areas {
         if are_objects {
-            area.most_left = MOST_LEFT_OF_AN_EDGE;
+            area.most_left = area.most_left.max(MOST_LEFT_BESIDE_OBJECTS);
         }
         area.verdict = match area.is_abrupt() {
             false => ClippedAreaVerdict::MayBeHighlight,

@@ -99,9 +99,11 @@ pub fn fills(
     fills
 }
 
-/// The clipped pixels among the `unexplained` that are not filled, in the window `roi`.
+/// The clipped pixels among the `unexplained` that are not filled, and those of clipped objects, in the window `roi`.
 pub fn unfilled(input: &AnalysisInput, unexplained: &Mask, roi: &Roi, fills: &[Fill]) -> Mask {
-    let mut unfilled = roi.raster(|pixel| unexplained[pixel] && input.masks.clipped(pixel));
+    let mut unfilled = roi.raster(|pixel| {
+        input.masks.clipped(pixel) && (unexplained[pixel] || input.masks.in_clipped_object(pixel))
+    });
     for index in fills.iter().flat_map(|fill| &fill.blob).filter_map(|&pixel| roi.index(pixel)) {
         unfilled[index] = false;
     }
