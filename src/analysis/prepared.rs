@@ -150,7 +150,9 @@ impl<'a> Preparation<'a> {
         if R::KEEPS {
             let made = masks_made(&working.masks, limits, working.image.pixels.len(), noise.sigma);
             recorder.record(made);
-            areas.iter().for_each(|area| recorder.record(ClippedAreaJudged::from(area)));
+            for area in &areas {
+                recorder.record(ClippedAreaJudged::from(area));
+            }
         }
         let working_coding = noise.coding.as_ref().map(|coding| coding.averaged(factor));
         Prepared { limits, masks, working: Arc::new(working), noise: Arc::new(noise), working_coding, detail }

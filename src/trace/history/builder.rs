@@ -157,13 +157,12 @@ impl<'a> HistoryBuilder<'a> {
                     self.note(step, HistoryKind::Masked(verdict));
                 }
             }
-            Event::ClippedAreaJudged(judged) => {
+            Event::ClippedAreaJudged(judged)
                 if judged.verdict == ClippedAreaVerdict::Object
-                    && judged.holds(PixelIndex::from_index(self.pixel))
-                {
-                    let verdict = MaskVerdict::ClippedObject { clipped: judged.clipped, left: judged.left };
-                    self.note(step, HistoryKind::Masked(verdict));
-                }
+                    && judged.holds(PixelIndex::from_index(self.pixel)) =>
+            {
+                let verdict = MaskVerdict::ClippedObject { clipped: judged.clipped, left: judged.left };
+                self.note(step, HistoryKind::Masked(verdict));
             }
             Event::PassBegan(PassBegan { pass }) => {
                 self.pass = Some(*pass);
