@@ -1,4 +1,4 @@
-//! White things that clip are no highlights: they keep their colors, at any size of a pixel and in compressed files.
+//! White things that clip are no highlights: they keep their colors, with working pixels of one and of four pixels.
 
 use crate::common::{analyze, assert_valid};
 use crate::synthetic::{Ball, Scene};

@@ -11,7 +11,7 @@ use crate::trace::Measured;
 pub struct MasksMade {
     /// The limits of the masks.
     pub limits: MaskLimits,
-    /// Number of pixels that are too dark to be analyzed, invalid pixels and pixels outside the area included.
+    /// Number of pixels that are too dark to be analyzed, invalid pixels and pixels outside the area included, those of clipped objects not.
     pub dark: u32,
     /// Number of other pixels that are clipped or bloomed.
     pub distorted: u32,
