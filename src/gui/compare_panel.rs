@@ -6,12 +6,22 @@ use super::{PanelContext, elsewhere_section::ElsewhereSection, lacking_result, w
 use crate::app::{Command, DebugCommand, Difference, Edit, NOT_ANALYZED, ViewCommand};
 use crate::describe::Names;
 use crate::raster::RegionId;
-use crate::view::{Comparison, ImageSettings, Item, Layer, RegionChange, compare};
+use crate::view::{
+    Comparison, FigureWords, ImageSettings, Item, Layer, RegionChange, compare, setting_meaning,
+};
 use egui::{Grid, RichText, ScrollArea, Ui};
 use std::sync::Arc;
 
 /// Width of a panel in which both tables stand side by side, points.
 const SIDE_BY_SIDE_PT: f32 = 640.0;
+
+/// The words of the angle between the lights of both results.
+const BETWEEN_LIGHTS: FigureWords = FigureWords {
+    name: "between both lights",
+    meaning: "Angle between the light's color in A and in B.",
+    unit: "\u{b0}",
+    factor: 1.0,
+};
 
 /// The comparison panel.
 #[derive(Default)]
@@ -55,8 +65,10 @@ impl ComparePanel {
 /// Shows what differs: scores and parameters beside the changed pixels and regions, or one below the other in a narrow panel.
 fn found_tables(ui: &mut Ui, cx: &mut PanelContext, found: &Comparison) {
     let grid = |name| Grid::new(name).num_columns(4).spacing([14.0, 2.0]);
-    if ui.available_width() < SIDE_BY_SIDE_PT {
-        grid("scores").show(ui, |ui| scores(ui, cx, found));
+    let room = ui.available_width();
+    if room < SIDE_BY_SIDE_PT {
+        let width = widgets::width_of_names(room, 3);
+        grid("scores").show(ui, |ui| scores(ui, cx, found, width));
         ui.add_space(8.0);
         regions(ui, cx, found);
         widgets::heading(ui, cx.palette, "Parameters that are not the same");
@@ -69,7 +81,7 @@ fn found_tables(ui: &mut Ui, cx: &mut PanelContext, found: &Comparison) {
     ui.horizontal_top(|ui| {
         ui.vertical(|ui| {
             grid("figures").show(ui, |ui| {
-                scores(ui, cx, found);
+                scores(ui, cx, found, widgets::width_of_names(0.6 * room, 3));
                 settings(ui, cx, found);
             });
         });
@@ -181,12 +193,11 @@ fn titles(ui: &mut Ui, cx: &PanelContext, titles: &[&str]) {
     ui.end_row();
 }
 
-/// Shows a row with the titles, and one for each score.
-fn scores(ui: &mut Ui, cx: &PanelContext, found: &Comparison) {
+/// Shows a row with the titles, and one for each score. `width`: that of the names, points.
+fn scores(ui: &mut Ui, cx: &PanelContext, found: &Comparison, width: f32) {
     titles(ui, cx, &["", "A", "B", "B \u{2212} A"]);
     for figure in &found.figures {
-        let unit = if figure.unit.is_empty() { String::new() } else { format!(" ({})", figure.unit) };
-        ui.label(format!("{}{unit}", figure.name));
+        widgets::figure_name(ui, width, figure.words);
         let text = |value: Option<f64>| value.map_or("\u{2013}".to_owned(), shortened);
         ui.label(text(figure.pinned));
         ui.label(text(figure.newest));
@@ -196,10 +207,10 @@ fn scores(ui: &mut Ui, cx: &PanelContext, found: &Comparison) {
         ui.end_row();
     }
     if let Some(angle) = found.illuminant_deg {
-        ui.label("between both lights");
+        widgets::figure_name(ui, width, BETWEEN_LIGHTS);
         ui.label("");
         ui.label("");
-        ui.label(format!("{angle:.2}\u{b0}"));
+        ui.label(format!("{angle:.2}"));
         ui.end_row();
     }
 }
@@ -207,7 +218,10 @@ fn scores(ui: &mut Ui, cx: &PanelContext, found: &Comparison) {
 /// Shows a row for each parameter that differs. A change of the method changes several dozen of them.
 fn settings(ui: &mut Ui, cx: &PanelContext, found: &Comparison) {
     for change in &found.settings {
-        ui.label(RichText::new(change.name.replace('_', " ")).color(cx.palette.accent));
+        let name = ui.label(RichText::new(change.name.replace('_', " ")).color(cx.palette.accent));
+        if let Some(meaning) = setting_meaning(change.name) {
+            name.on_hover_text(meaning);
+        }
         ui.label(&change.pinned);
         ui.label(&change.newest);
         ui.end_row();
@@ -246,14 +260,34 @@ fn regions(ui: &mut Ui, cx: &mut PanelContext, found: &Comparison) {
     let all = (pixels.kept + pixels.gained + pixels.lost + pixels.changed).max(1) as f64;
     let percent = |n: usize| format!("{:.2} %", 100.0 * n as f64 / all);
     Grid::new("pixels").num_columns(2).spacing([14.0, 2.0]).show(ui, |ui| {
-        for (name, value) in [
-            ("pixels gained", percent(pixels.gained)),
-            ("pixels lost", percent(pixels.lost)),
-            ("pixels of another region", percent(pixels.changed)),
-            ("body changed by > 1 count", format!("{:.2} %", 100.0 * body.share)),
-            ("largest change", format!("{:.1} counts", body.most_counts)),
+        for (name, value, meaning) in [
+            (
+                "pixels gained",
+                percent(pixels.gained),
+                "Share of all pixels that have a region in B and none in A.",
+            ),
+            (
+                "pixels lost",
+                percent(pixels.lost),
+                "Share of all pixels that have a region in A and none in B.",
+            ),
+            (
+                "pixels of another region",
+                percent(pixels.changed),
+                "Share of all pixels whose region in B is not the one of A.",
+            ),
+            (
+                "body changed by > 1 count",
+                format!("{:.2} %", 100.0 * body.share),
+                "Share of all pixels whose body reflection differs by more than 1 count in a band.",
+            ),
+            (
+                "largest change",
+                format!("{:.1} counts", body.most_counts),
+                "Largest difference of the body reflection in a band.",
+            ),
         ] {
-            ui.label(secondary_text(cx, name));
+            ui.label(secondary_text(cx, name)).on_hover_text(meaning);
             ui.label(value);
             ui.end_row();
         }

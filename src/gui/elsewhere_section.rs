@@ -121,17 +121,17 @@ fn file(ui: &mut Ui, cx: &mut PanelContext, elsewhere: &Elsewhere, kind: Elsewhe
 /// Shows figures of the other program, of the result and of doing nothing.
 fn table(ui: &mut Ui, cx: &PanelContext, title: &str, figures: &[HeldFigure]) {
     ui.add_space(4.0);
+    let width = widgets::width_of_names(ui.available_width(), 3);
     Grid::new(title).num_columns(4).spacing([14.0, 2.0]).show(ui, |ui| {
         for title in [title, "other program", "this result", "doing nothing"] {
             ui.label(secondary(cx, title));
         }
         ui.end_row();
         for figure in figures {
-            let unit = if figure.unit.is_empty() { String::new() } else { format!(" ({})", figure.unit) };
-            ui.label(format!("{}{unit}", figure.name)).on_hover_text(figure.meaning);
+            widgets::figure_name(ui, width, figure.words);
             for value in [figure.elsewhere, figure.result, figure.nothing] {
                 ui.add(Label::new(
-                    value.map_or_else(|| "\u{2013}".to_owned(), |value| text(value, figure.unit)),
+                    value.map_or_else(|| "\u{2013}".to_owned(), |value| text(value, figure.words.unit)),
                 ));
             }
             ui.end_row();

@@ -2,6 +2,7 @@
 
 use super::theme::{BODY_PT, SMALL_PT, ThemeColors, heading_font, subscript_font};
 use crate::color::{ContrastCurve, srgb_from_linear};
+use crate::view::FigureWords;
 use egui::text::{LayoutJob, TextFormat};
 use egui::{Align, Color32, FontId, Layout, Response, RichText, Sense, Ui, vec2};
 
@@ -123,6 +124,22 @@ pub fn number(ui: &mut Ui, palette: &ThemeColors, width: f32, value: &str, unit:
         }
         ui.label(value);
     });
+}
+
+/// The name of a figure with its unit, which wraps at `width` points; the sentence that says what the figure measures is its tooltip.
+pub fn figure_name(ui: &mut Ui, width: f32, figure: FigureWords) -> Response {
+    let FigureWords { name, meaning, unit, .. } = figure;
+    let unit = if unit.is_empty() { String::new() } else { format!(" ({unit})") };
+    let wrapped = ui.vertical(|ui| {
+        ui.set_max_width(width);
+        ui.add(egui::Label::new(format!("{name}{unit}")).wrap()).on_hover_text(meaning)
+    });
+    wrapped.inner
+}
+
+/// Width of the names of a table whose `columns` columns of numbers stand in `room` points.
+pub fn width_of_names(room: f32, columns: usize) -> f32 {
+    (room - 64.0 * columns as f32).clamp(72.0, 220.0)
 }
 
 /// A sentence in the middle of a panel that has nothing to show.

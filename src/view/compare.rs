@@ -1,6 +1,7 @@
 //! Two results of one photograph side by side.
 
 use super::ResultSnapshot;
+use super::compare_figures::{Figure, figures};
 use super::snapshot::{best_overlaps, overlaps};
 use crate::params::{Method, Parameter, Params, PhoenixParameter, Reading, Switch};
 use crate::raster::RegionId;
@@ -36,19 +37,6 @@ pub struct SettingChange {
     pub pinned: String,
     /// In the newest result.
     pub newest: String,
-}
-
-/// A figure of both results.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Figure {
-    /// Name of the figure, as in reports.
-    pub name: &'static str,
-    /// Unit of the figure; empty for pure numbers.
-    pub unit: &'static str,
-    /// In the pinned result.
-    pub pinned: Option<f64>,
-    /// In the newest result.
-    pub newest: Option<f64>,
 }
 
 /// The difference between a region of one result and the same region of another.
@@ -188,58 +176,6 @@ fn settings(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Vec<SettingChan
         changes.push(SettingChange { name: "area", pinned, newest });
     }
     changes
-}
-
-fn figures(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Vec<Figure> {
-    let both = |name, unit, of: &dyn Fn(&ResultSnapshot) -> Option<f64>| Figure {
-        name,
-        unit,
-        pinned: of(pinned),
-        newest: of(newest),
-    };
-    let regions = |shown: &ResultSnapshot| shown.analysis.intrinsic.regions.len();
-    let highlights = |shown: &ResultSnapshot| {
-        shown.analysis.intrinsic.regions.iter().filter(|region| region.highlights().is_some()).count()
-    };
-    let of_results = [
-        both("regions", "", &|shown| Some(regions(shown) as f64)),
-        both("regions with a highlight", "", &|shown| Some(highlights(shown) as f64)),
-        both("lit pixels in regions", "%", &|shown| Some(100.0 * shown.coverage)),
-        both("fit error", "counts", &fit_error_counts),
-        both("light R", "", &|shown| shown.analysis.illuminant.map(|light| light.direction[0])),
-        both("light G", "", &|shown| shown.analysis.illuminant.map(|light| light.direction[1])),
-        both("light B", "", &|shown| shown.analysis.illuminant.map(|light| light.direction[2])),
-        both("camera noise", "counts", &|shown| Some(shown.analysis.used.camera_noise)),
-    ];
-    // What a comparison is made for comes first: a low panel shows only the first rows.
-    scores(pinned, newest).into_iter().chain(of_results).collect()
-}
-
-/// The scores of both results against the ground truth, those of images first, those of doing nothing last, which are the same for both;
-/// empty without a ground truth.
-fn scores(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> Vec<Figure> {
-    let (Some(pinned), Some(newest)) = (pinned.accuracy(), newest.accuracy()) else { return Vec::new() };
-    let scores = pinned.scores.figures().into_iter().zip(newest.scores.figures());
-    // The number of regions is among the figures of the results.
-    let scores = scores.filter(|((name, _), _)| *name != "regions").map(|((name, pinned), (_, newest))| {
-        let unit = match name {
-            name if name.starts_with("psnr") => "dB",
-            name if name.ends_with("deg") => "\u{b0}",
-            _ => "",
-        };
-        Figure { name, unit, pinned, newest }
-    });
-    let mut scores: Vec<Figure> = scores.collect();
-    scores.sort_by_key(|figure| (figure.name.ends_with("nothing"), figure.unit != "dB"));
-    scores
-}
-
-/// Root mean square of the regions' fit errors, weighted by their pixels; none without a region.
-fn fit_error_counts(shown: &ResultSnapshot) -> Option<f64> {
-    let regions = &shown.analysis.intrinsic.regions;
-    let pixels: usize = regions.iter().map(|region| region.pixels).sum();
-    let sum: f64 = regions.iter().map(|region| region.pixels as f64 * region.fit_rms_counts.powi(2)).sum();
-    (pixels > 0).then(|| (sum / pixels as f64).sqrt())
 }
 
 fn changes(pinned: &ResultSnapshot, newest: &ResultSnapshot) -> (Vec<ComparedRegion>, PixelChanges) {
@@ -404,8 +340,8 @@ mod tests {
             found.settings.iter().map(|c| (c.name, c.pinned.as_str(), c.newest.as_str())).collect();
         assert_eq!(plain, [("camera_noise", "2.5", "3"), ("area", "all", "4 px")]);
         assert_eq!(found.body, BodyChange { share: 0.25, mean_counts: 4.5 / 4.0, most_counts: 4.0 });
-        let fit = found.figures.iter().find(|figure| figure.name == "fit error").unwrap();
-        assert_eq!((fit.pinned, fit.newest, fit.unit), (Some(1.5), Some(1.5), "counts"));
+        let fit = found.figures.iter().find(|figure| figure.words.name == "fit error").unwrap();
+        assert_eq!((fit.pinned, fit.newest, fit.words.unit), (Some(1.5), Some(1.5), "counts"));
         assert!(compare(&pinned, &divided(&gray(&["1"], 9), &["1"])).is_none());
     }
 

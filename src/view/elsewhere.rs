@@ -1,5 +1,6 @@
 //! A label map and a diffuse picture that another program made of the open photograph, held against a result.
 
+use super::figure_words::{FigureWords, agreement_words, score_words};
 use super::snapshot::{best_overlaps, overlaps};
 use super::{ElsewhereKind, ElsewherePaths, ResultSnapshot};
 use crate::describe::{ImageFacts, Report};
@@ -78,12 +79,10 @@ pub struct ElsewherePixel {
 /// A figure of another program's pictures, beside those of the result and of doing nothing.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct HeldFigure {
-    /// Name of the figure, as in reports.
-    pub name: &'static str,
-    /// What the figure measures: a tooltip.
-    pub meaning: &'static str,
-    /// Unit of the figure; empty for pure numbers.
-    pub unit: &'static str,
+    /// Key of the figure in files.
+    pub key: &'static str,
+    /// The words with which the figure is shown.
+    pub words: FigureWords,
     /// Of the other program.
     pub elsewhere: Option<f64>,
     /// Of the result; none for a figure that compares both.
@@ -110,13 +109,13 @@ pub fn held_against(elsewhere: &Elsewhere, shown: &ResultSnapshot) -> Result<Hel
     let (pictures, body) = (&elsewhere.pictures, &shown.analysis.intrinsic.body);
     let agreement = pictures.agreement(shown.labels(), body)?;
     let photo = &shown.picture.photo.image.pixels;
-    let figure = |(name, value): (&'static str, Option<f64>)| {
-        let (meaning, unit, factor) = agreement_words(name);
+    let figure = |(key, value): (&'static str, Option<f64>)| {
+        let words = agreement_words(key);
         let apart = || photo.as_slice().iter().flatten().zip(body.as_slice().iter().flatten());
         let nothing =
-            (name == "psnr_body").then(|| psnr_db(apart().map(|(a, b)| f64::from(*a) - f64::from(*b))));
-        let elsewhere = value.map(|value| factor * value);
-        HeldFigure { name, meaning, unit, elsewhere, result: None, nothing: nothing.flatten() }
+            (key == "psnr_body").then(|| psnr_db(apart().map(|(a, b)| f64::from(*a) - f64::from(*b))));
+        let elsewhere = value.map(|value| words.factor * value);
+        HeldFigure { key, words, elsewhere, result: None, nothing: nothing.flatten() }
     };
     let agreement = agreement.figures().into_iter().map(figure).collect();
     Ok(Held { agreement, scores: scores(pictures, shown)? })
@@ -132,63 +131,24 @@ fn scores(pictures: &ForeignResult, shown: &ResultSnapshot) -> Result<Vec<HeldFi
     let report = Report::new(facts, &shown.params, &shown.analysis, &[]);
     let theirs = pictures.scores(truth, &photo.image.pixels, &report)?;
     let (theirs, ours) = (pictures.figures(&theirs), pictures.figures(&accuracy.scores));
-    let nothing_of = |name: &str| match name {
+    let nothing_of = |key: &str| match key {
         "psnr_body" => "psnr_nothing",
         "psnr_surface" => "psnr_surface_nothing",
         "psnr_restored" => "psnr_restored_nothing",
         _ => "",
     };
-    let value = |figures: &[(&'static str, Option<f64>)], name: &str| {
-        figures.iter().find(|figure| figure.0 == name).and_then(|figure| figure.1)
+    let value = |figures: &[(&'static str, Option<f64>)], key: &str, words: FigureWords| {
+        let found = figures.iter().find(|figure| figure.0 == key).and_then(|figure| figure.1);
+        found.map(|value| words.factor * value)
     };
-    let rows = theirs.iter().filter(|(name, _)| !name.ends_with("nothing"));
+    let rows = theirs.iter().filter(|(key, _)| !key.ends_with("nothing"));
     Ok(rows
-        .map(|&(name, elsewhere)| HeldFigure {
-            name,
-            meaning: score_meaning(name),
-            unit: if name.starts_with("psnr") { "dB" } else { "" },
-            elsewhere,
-            result: value(&ours, name),
-            nothing: value(&ours, nothing_of(name)),
+        .map(|&(key, _)| {
+            let words = score_words(key);
+            let [elsewhere, result] = [&theirs, &ours].map(|figures| value(figures, key, words));
+            HeldFigure { key, words, elsewhere, result, nothing: value(&ours, nothing_of(key), words) }
         })
         .collect())
-}
-
-/// The meaning, the unit and the factor of a figure of the agreement.
-const fn agreement_words(name: &str) -> (&'static str, &'static str, f64) {
-    match name.as_bytes() {
-        b"ari" => (
-            "Adjusted Rand index of both label maps, over the pixels that both give a label: 1 where they agree, about 0 by chance.",
-            "",
-            1.0,
-        ),
-        b"shared" => ("Share of the pixels in a region that the other label map labels too.", "%", 100.0),
-        _ => (
-            "Peak signal to noise ratio between the diffuse picture and the body image, over all pixels; beside it that of the unchanged photograph.",
-            "dB",
-            1.0,
-        ),
-    }
-}
-
-/// The meaning of a score against the ground truth.
-fn score_meaning(name: &str) -> &'static str {
-    match name {
-        "ari" => {
-            "Adjusted Rand index against the true objects, over their lit pixels: 1 where every pair of pixels is rightly together or apart."
-        }
-        "iou" => "Mean intersection over union of each object and the region that fits it best.",
-        "iou_min" => "Smallest of these intersections over union.",
-        "cover" => "Share of the objects' lit pixels that have a region.",
-        "regions" => "Number of regions, or of labels.",
-        "psnr_body" => {
-            "Peak signal to noise ratio of the body image, or of the diffuse picture, inside objects."
-        }
-        "psnr_surface" => {
-            "Peak signal to noise ratio of the surface image inside objects; that of a diffuse picture is the photograph without the diffuse picture."
-        }
-        _ => "Peak signal to noise ratio of the body image where the photograph is clipped.",
-    }
 }
 
 /// The color of each label of another program's map, from label 0 (without a meaning) on, sRGB: the color of the region of the result that
@@ -281,7 +241,7 @@ mod tests {
         let shown = divided(&picture, &ROWS);
         let held = held_against(&elsewhere(&["5577..", "5577.."], 80.0), &shown).unwrap();
         assert!(held.scores.is_empty(), "there is no ground truth");
-        let names: Vec<_> = held.agreement.iter().map(|figure| (figure.name, figure.unit)).collect();
+        let names: Vec<_> = held.agreement.iter().map(|figure| (figure.key, figure.words.unit)).collect();
         assert_eq!(names, [("ari", ""), ("shared", "%"), ("psnr_body", "dB")]);
         assert!((held.agreement[1].elsewhere.unwrap() - 200.0 / 3.0).abs() < 1e-9);
         let [elsewhere_db, nothing_db] =
@@ -305,11 +265,11 @@ mod tests {
         let shown = divided(&Arc::new(picture), &rows);
         shown.measure();
         let held = held_against(&elsewhere(&rows, 80.0), &shown).unwrap();
-        let score = |name: &str| *held.scores.iter().find(|figure| figure.name == name).unwrap();
+        let score = |name: &str| *held.scores.iter().find(|figure| figure.key == name).unwrap();
         assert_eq!((score("ari").elsewhere, score("ari").nothing), (Some(1.0), None));
         let body = score("psnr_body");
         assert!(body.elsewhere > body.nothing && body.nothing.is_some(), "{body:?}");
-        assert!(held.scores.iter().all(|figure| !figure.name.contains("nothing")));
+        assert!(held.scores.iter().all(|figure| !figure.key.contains("nothing")));
     }
 
     #[test]

@@ -8,9 +8,11 @@ mod axes;
 mod cluster_plane;
 mod colors;
 mod compare;
+mod compare_figures;
 mod curves;
 mod elsewhere;
 mod elsewhere_paths;
+mod figure_words;
 mod geometry;
 mod histogram;
 mod inspection;
@@ -48,11 +50,13 @@ pub use axes::{Axis, Tick};
 pub use cluster_plane::{Cluster, ClusterPlane, ELLIPSE_DEVIATIONS, cluster_plane};
 pub(crate) use colors::{colors_with_further_regions, region_colors};
 pub use compare::{
-    BodyChange, ComparedRegion, Comparison, Figure, PixelChanges, RegionChange, SettingChange, compare,
+    BodyChange, ComparedRegion, Comparison, PixelChanges, RegionChange, SettingChange, compare,
     setting_changes,
 };
+pub use compare_figures::Figure;
 pub use elsewhere::{Elsewhere, ElsewherePixel, Held, HeldFigure, held_against, label_count};
 pub use elsewhere_paths::{ElsewhereKind, ElsewherePaths};
+pub use figure_words::{FigureWords, setting_meaning};
 pub use geometry::{GeometrySettings, SPHERE_DISTANCES, meeting_share, sphere_colors, sphere_in_plane};
 pub use histogram::{BINS_PER_BAND, ColorBin, Histogram, UniqueColor};
 pub use inspection::{

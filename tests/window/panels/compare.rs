@@ -32,6 +32,34 @@ fn a_narrow_panel_shows_all_that_differs() {
 }
 
 #[test]
+fn every_row_has_words_a_unit_and_a_sentence() {
+    let mut window = tiny_window();
+    apply(&mut window, ViewCommand::Pin(true));
+    apply(&mut window, Edit::SetParameter(Parameter::CameraNoise, Setting::Value(7.0), None));
+    window.state_mut().show_alone(Some(Pane::Compare));
+    window.set_size(egui::vec2(800.0, 900.0));
+    window.run_steps(4);
+    assert!(!says(&window, "psnr") && !says(&window, "_deg"), "keys of files are no words");
+    for (name, sentence) in [
+        ("body image (dB)", "against the true one"),
+        ("light off by (\u{b0})", "Angle between the true color of the light"),
+        ("overlap with objects, mean (%)", "Intersection over union"),
+        ("fit error (counts)", "root mean square"),
+        ("pixels gained", "have a region in B and none in A"),
+        ("camera noise", "oise"),
+    ] {
+        let starts = |node: &Node<'_>| words(node).is_some_and(|words| words == name);
+        let place = window.root().children_recursive().find(starts).unwrap_or_else(|| panic!("{name}"));
+        let place = place.rect().center();
+        window.hover_at(egui::pos2(790.0, 890.0));
+        window.run_steps(4);
+        window.hover_at(place);
+        window.run_steps(8);
+        assert!(says(&window, sentence), "the tooltip of {name}");
+    }
+}
+
+#[test]
 fn a_pinned_result_is_compared_and_swapped_by_key() {
     let mut window = tiny_window();
     click(&mut window, Role::Button, "Compare");

@@ -51,7 +51,7 @@ fn a_label_map_is_opened_from_the_menu_and_compared_in_every_place() {
     assert!(says(&window, &format!("label map labels.png, {count} label")));
     assert!(says(&window, "agreement with this result") && says(&window, "1.000") && says(&window, "100.0"));
     assert!(says(&window, "compared with the ground truth") && says(&window, "doing nothing"));
-    assert!(!says(&window, "psnr_body"), "there is no diffuse picture");
+    assert!(!says(&window, "as the body image"), "there is no diffuse picture");
     click(&mut window, Role::Button, "Other borders");
     assert_eq!(state(&window).view.image.layer, Layer::OtherBorders);
     let pixel = shown(&window).labels().as_slice().iter().position(|&label| label == 1).unwrap();
@@ -70,8 +70,8 @@ fn a_diffuse_picture_has_layers_scores_and_values() {
     answer(&mut window, &folder.path().join("diffuse.png"));
     window.run_steps(3);
     assert_eq!(state(&window).view.image.layer, Layer::OtherBody);
-    assert!(says(&window, "diffuse picture diffuse.png") && says(&window, "psnr_body (dB)"));
-    assert!(says(&window, "psnr_surface (dB)"), "the tiny scene has a ground truth");
+    assert!(says(&window, "diffuse picture diffuse.png") && says(&window, "as the body image (dB)"));
+    assert!(says(&window, "surface image (dB)"), "the tiny scene has a ground truth");
     apply(&mut window, Edit::Select(Some(Item::Pixel(PixelIndex::new(0)))));
     assert!(says(&window, "other, R 26.1, G 11.5, B 3.3"), "linear counts");
     click(&mut window, Role::Button, "Other difference");
