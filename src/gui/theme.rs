@@ -15,6 +15,8 @@ pub struct ThemeColors {
     pub panel: Color32,
     /// Background of fields, buttons and slider rails.
     pub well: Color32,
+    /// Boxes that can be checked, rails and handles of sliders, and scroll bars.
+    pub mark: Color32,
     /// Separators and borders.
     pub line: Color32,
     /// Text and values.
@@ -37,6 +39,7 @@ impl ThemeColors {
                 background: Color32::from_rgb(0x17, 0x18, 0x1A),
                 panel: Color32::from_rgb(0x1F, 0x20, 0x22),
                 well: Color32::from_rgb(0x2A, 0x2B, 0x2E),
+                mark: Color32::from_rgb(0x6C, 0x6F, 0x74),
                 line: Color32::from_rgb(0x30, 0x32, 0x36),
                 text: Color32::from_rgb(0xE2, 0xE4, 0xE8),
                 secondary: Color32::from_rgb(0xA4, 0xA8, 0xAE),
@@ -48,6 +51,7 @@ impl ThemeColors {
                 background: Color32::from_rgb(0xDC, 0xDC, 0xDC),
                 panel: Color32::from_rgb(0xF2, 0xF2, 0xF2),
                 well: Color32::from_rgb(0xE2, 0xE2, 0xE2),
+                mark: Color32::from_rgb(0x8A, 0x8B, 0x8E),
                 line: Color32::from_rgb(0xC4, 0xC4, 0xC6),
                 text: Color32::from_rgb(0x1E, 0x1F, 0x22),
                 secondary: Color32::from_rgb(0x56, 0x59, 0x5E),
@@ -210,16 +214,16 @@ fn visuals(theme: Theme, palette: &ThemeColors) -> Visuals {
     let widgets = &mut visuals.widgets;
     widgets.noninteractive.bg_stroke = Stroke::new(1.0, palette.line);
     widgets.noninteractive.fg_stroke = Stroke::new(1.0, palette.text);
-    for (widget, fill, text) in [
-        (&mut widgets.inactive, palette.well, palette.text),
-        (&mut widgets.hovered, palette.line, palette.text),
-        (&mut widgets.active, palette.line, palette.text),
-        (&mut widgets.open, palette.line, palette.text),
+    for (widget, fill) in [
+        (&mut widgets.inactive, palette.well),
+        (&mut widgets.hovered, palette.line),
+        (&mut widgets.active, palette.line),
+        (&mut widgets.open, palette.line),
     ] {
-        widget.bg_fill = fill;
+        widget.bg_fill = palette.mark;
         widget.weak_bg_fill = fill;
         widget.bg_stroke = Stroke::NONE;
-        widget.fg_stroke = Stroke::new(1.0, text);
+        widget.fg_stroke = Stroke::new(1.0, palette.text);
         widget.corner_radius = CornerRadius::same(3);
         widget.expansion = 0.0;
     }
@@ -270,6 +274,10 @@ mod tests {
                 assert!(contrast >= 4.5, "{theme:?}: text {text} on ground {ground}: {contrast}");
             }
             assert!(contrast_of(colors.text, colors.line) >= 4.5, "{theme:?}: text on a hovered button");
+            let marks = [(colors.mark, colors.panel), (colors.text, colors.mark)];
+            for (mark, ground) in marks {
+                assert!(contrast_of(mark, ground) >= 3.0, "{theme:?}: {mark:?} on {ground:?}");
+            }
         }
     }
 }
