@@ -1,8 +1,8 @@
 //! The question before the window or a photograph is closed whose work is in no workspace.
 
-use super::PanelContext;
 use super::action::Action;
 use super::theme::{BODY_PT, heading_font};
+use super::{PanelContext, dialog_room};
 use crate::app::{JobCommand, Severity, State, ViewCommand};
 use crate::view::Picture;
 use egui::{Id, Label, Modal, RichText, Ui, ViewportCommand};
@@ -85,12 +85,12 @@ impl Closing {
             Closed::Photograph(picture) => picture.origin.name(),
         };
         let modal = Modal::new(Id::unique("close without saving")).show(ui.ctx(), |ui| {
-            ui.set_max_width(420.0);
+            ui.set_max_width(dialog_room::width_within(ui.ctx(), 420.0));
             ui.label(RichText::new("Close without saving?").font(heading_font(BODY_PT)));
             let text = format!("Parameters, marks or area of {names} were changed, and are in no workspace.");
             ui.add(Label::new(RichText::new(text).color(cx.palette.secondary)).wrap());
             ui.add_space(6.0);
-            ui.horizontal(|ui| {
+            ui.horizontal_wrapped(|ui| {
                 if closed.is_unsaved(cx.state) && ui.button("Save workspace\u{2026}").clicked() {
                     self.asked = None;
                     self.saving = Some(Saving { closed: closed.clone(), frames_left: FRAMES_TO_BEGIN });

@@ -3,8 +3,17 @@
 use super::command_list::{Entry, entries};
 use super::shortcuts::keys_of;
 use super::theme::SMALL_PT;
-use super::{PanelContext, widgets};
-use egui::{Button, Id, Key, Modifiers, RichText, ScrollArea, TextEdit, Ui};
+use super::{PanelContext, dialog_room, widgets};
+use egui::{Button, Id, Key, Modifiers, RichText, TextEdit, Ui};
+
+/// Width of the list, points.
+const WIDTH_PT: f32 = 420.0;
+
+/// Height of the field over the list, points.
+const FIELD_PT: f32 = 28.0;
+
+/// Least and largest height of the list, points.
+const LIST_PT: [f32; 2] = [40.0, 320.0];
 
 /// Whether a name contains every word of a query, in any order and case.
 fn matches(name: &str, query: &str) -> bool {
@@ -73,27 +82,25 @@ impl CommandPalette {
         self.chosen = (self.chosen + usize::from(down)).saturating_sub(usize::from(up)).min(last);
         let mut confirmed = found.get(self.chosen).filter(|_| enter).map(|entry| entry.action);
         let is_moved = up || down;
-        let window = egui::Window::new("Commands").collapsible(false).resizable(false);
-        let shown = window.anchor(egui::Align2::CENTER_TOP, egui::vec2(0.0, 64.0)).default_width(420.0).show(
-            ui.ctx(),
-            |ui| {
-                self.field(ui);
-                if found.is_empty() {
-                    ui.label(RichText::new("No command has these letters.").color(cx.palette.secondary));
-                }
-                ScrollArea::vertical().max_height(320.0).auto_shrink([false, true]).show(ui, |ui| {
-                    for (index, entry) in found.iter().enumerate() {
-                        let row = row(ui, entry, index == self.chosen);
-                        if index == self.chosen && is_moved {
-                            row.scroll_to_me(None);
-                        }
-                        if row.clicked() {
-                            confirmed = Some(entry.action);
-                        }
+        let window = dialog_room::placed(egui::Window::new("Commands"), ui.ctx(), WIDTH_PT);
+        let shown = window.show(ui.ctx(), |ui| {
+            self.field(ui);
+            if found.is_empty() {
+                ui.label(RichText::new("No command has these letters.").color(cx.palette.secondary));
+            }
+            let room = (dialog_room::height(ui.ctx()) - FIELD_PT).clamp(LIST_PT[0], LIST_PT[1]);
+            dialog_room::scrolling(ui, "commands", room, |ui| {
+                for (index, entry) in found.iter().enumerate() {
+                    let row = row(ui, entry, index == self.chosen);
+                    if index == self.chosen && is_moved {
+                        row.scroll_to_me(None);
                     }
-                });
-            },
-        );
+                    if row.clicked() {
+                        confirmed = Some(entry.action);
+                    }
+                }
+            });
+        });
         if let Some(shown) = &shown {
             // Tab stays inside the palette.
             ui.ctx().memory_mut(|memory| memory.set_modal_layer(shown.response.layer_id));
@@ -111,7 +118,7 @@ impl CommandPalette {
     /// Shows the field for the letters.
     fn field(&mut self, ui: &mut Ui) {
         let field = TextEdit::singleline(&mut self.query).id(Id::unique("query of the command palette"));
-        let field = ui.add(field.desired_width(400.0).hint_text("some letters of a command"));
+        let field = ui.add(field.desired_width(f32::INFINITY).hint_text("some letters of a command"));
         field.widget_info(|| egui::WidgetInfo::labeled(egui::accesskit::Role::TextInput, true, "Command"));
         if field.changed() {
             self.chosen = 0;

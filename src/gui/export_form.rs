@@ -8,6 +8,9 @@ use egui::{RichText, Ui};
 /// Views that can be drawn at any size.
 const VIEWS: [Pane; 3] = [Pane::Colors, Pane::Plane, Pane::Profile];
 
+/// Width of the number and the name beside a slider, points.
+const SLIDER_TEXT_PT: f32 = 200.0;
+
 /// What is exported, and how.
 pub struct ExportForm {
     /// The kind of the export.
@@ -73,7 +76,7 @@ impl ExportForm {
                 ui.label(RichText::new(text).color(cx.palette.secondary));
             }
             ExportKind::View => {
-                ui.horizontal(|ui| {
+                ui.horizontal_wrapped(|ui| {
                     for pane in VIEWS {
                         ui.selectable_value(&mut self.view, pane, pane.title());
                     }
@@ -91,7 +94,7 @@ impl ExportForm {
 
     /// Shows the slider of the share of surface reflection that stays in the photograph without highlights.
     fn surface_slider(&mut self, ui: &mut Ui) {
-        ui.spacing_mut().slider_width = 200.0;
+        ui.spacing_mut().slider_width = (ui.available_width() - SLIDER_TEXT_PT).clamp(40.0, 200.0);
         let slider =
             egui::Slider::new(&mut self.options.keep_surface, 0.0..=1.0).text("surface reflection kept");
         ui.add(slider.custom_formatter(|v, _| format!("{:.0} %", v * 100.0)).custom_parser(|text| {

@@ -9,7 +9,7 @@ use super::proposed_path::{proposed_layer_path, proposed_path, proposed_pixels_p
 use super::system_dialog::{Answer, SystemDialog, Wanted};
 use super::typed_path::{file_name_span, typed_path};
 use super::view_export::ViewExport;
-use super::{PanelContext, open_form};
+use super::{PanelContext, dialog_room, open_form};
 use crate::app::{Export, ExportKind, JobCommand, Notice, Severity, ViewCommand, is_workspace};
 use crate::view::{Layer, Origin};
 use egui::text::{CCursor, CCursorRange};
@@ -17,20 +17,8 @@ use egui::text_edit::TextEditState;
 use egui::{Key, Modifiers, RichText, Ui};
 use std::path::PathBuf;
 
-/// Least and largest width of the field for the path, points.
-const PATH_PT: [f32; 2] = [200.0, 460.0];
-
-/// Width of what stands beside the field for the path in a dialog, points.
-const BUTTONS_PT: f32 = 180.0;
-
-/// Width of the margins in and around a dialog, points.
-const MARGINS_PT: f32 = 80.0;
-
-/// Width of the field for the path, points.
-fn path_width(ctx: &egui::Context) -> f32 {
-    let [least, most] = PATH_PT;
-    (ctx.content_rect().width() - BUTTONS_PT - MARGINS_PT).clamp(least, most)
-}
+/// Least height of the choices of an export, points.
+const LEAST_FORM_PT: f32 = 64.0;
 
 /// The open dialog, and the system's file dialog that may be open beside it.
 #[derive(Default)]
@@ -39,6 +27,10 @@ pub struct Dialogs {
     path: String,
     export: ExportForm,
     view_export: Option<ViewExport>,
+    /// Number of dialogs that were opened: each begins at the top of its contents.
+    opened: usize,
+    /// Height of the path's row and of what lies below it in the last frame, points.
+    path_row_pt: f32,
     system_dialog: SystemDialog,
     /// Whether the field takes the focus in the next frame.
     focus: Option<Focus>,
@@ -98,6 +90,7 @@ impl Dialogs {
     /// Opens a dialog.
     pub fn open(&mut self, dialog: Dialog) {
         (self.dialog, self.export.options.force) = (Some(dialog), false);
+        self.opened += 1;
         self.focus = Some(Focus::Name);
         self.waiting = None;
         (self.export.options.layer, self.export.options.region) = (None, None);
@@ -131,10 +124,16 @@ impl Dialogs {
         self.dialog.is_some()
     }
 
+    /// The title of the open dialog, where that asks for a file other than a photograph.
+    pub fn asked_file(&self) -> Option<&'static str> {
+        let dialog = self.dialog.filter(|dialog| *dialog != Dialog::Open && dialog.reads())?;
+        Some(dialog.title())
+    }
+
     /// Takes a file that was dropped on the window, where the open dialog asks for a file other than a photograph: as if its path had been
     /// typed and confirmed. Returns whether there was such a file.
     pub fn take_dropped(&mut self, ctx: &egui::Context) -> bool {
-        if self.dialog.is_none_or(|dialog| dialog == Dialog::Open || !dialog.reads()) {
+        if self.asked_file().is_none() {
             return false;
         }
         let first = |input: &egui::InputState| Some(input.raw.dropped_files.first()?.path().to_path_buf());
@@ -171,21 +170,13 @@ impl Dialogs {
             self.propose_path(dialog, cx);
         }
         let mut open = true;
-        let window = egui::Window::new(dialog.title()).open(&mut open).collapsible(false).resizable(false);
-        let width = path_width(ui.ctx()) + BUTTONS_PT;
-        let shown = window.default_width(width).anchor(egui::Align2::CENTER_TOP, egui::vec2(0.0, 64.0)).show(
-            ui.ctx(),
-            |ui| {
-                if dialog == Dialog::Export {
-                    self.export_form(ui, cx);
-                }
-                self.path_row(ui, dialog, cx);
-                if let Dialog::OpenElsewhere(kind) = dialog {
-                    open_form::elsewhere_note(ui, cx, kind);
-                }
-                dialog == Dialog::Open && open_form::samples_and_recent(ui, cx)
-            },
-        );
+        let window = egui::Window::new(dialog.title()).open(&mut open);
+        let shown = dialog_room::placed(window, ui.ctx(), dialog_room::PATH_ROW_PT).show(ui.ctx(), |ui| {
+            let room = dialog_room::height(ui.ctx());
+            dialog_room::scrolling(ui, &format!("dialog {}", self.opened), room, |ui| {
+                self.contents(ui, dialog, cx, room)
+            })
+        });
         if let Some(shown) = &shown {
             // Tab stays inside the dialog.
             ui.ctx().memory_mut(|memory| memory.set_modal_layer(shown.response.layer_id));
@@ -194,6 +185,23 @@ impl Dialogs {
             self.close(ui.ctx());
         }
         self.view_export.take()
+    }
+
+    /// Shows what a dialog holds in `room` points of height: the choices of an export scroll over the path. Returns whether the dialog is done.
+    fn contents(&mut self, ui: &mut Ui, dialog: Dialog, cx: &mut PanelContext, room: f32) -> bool {
+        if dialog == Dialog::Export {
+            let form_pt = (room - self.path_row_pt - ui.spacing().item_spacing.y).max(LEAST_FORM_PT);
+            dialog_room::scrolling(ui, &format!("export {}", self.opened), form_pt, |ui| {
+                self.export_form(ui, cx);
+            });
+        }
+        let top = ui.cursor().top();
+        self.path_row(ui, dialog, cx);
+        self.path_row_pt = ui.cursor().top() - top;
+        if let Dialog::OpenElsewhere(kind) = dialog {
+            open_form::elsewhere_note(ui, cx, kind);
+        }
+        dialog == Dialog::Open && open_form::samples_and_recent(ui, cx)
     }
 
     /// Proposes a path in a dialog that writes, where none was proposed when the dialog was opened.
@@ -228,9 +236,10 @@ impl Dialogs {
         if has_result {
             (self.waiting, confirmed) = (None, true);
         }
-        ui.horizontal(|ui| {
+        ui.horizontal_wrapped(|ui| {
             let label = ui.label("Path");
-            let field = egui::TextEdit::singleline(&mut self.path).desired_width(path_width(ui.ctx()));
+            let field =
+                egui::TextEdit::singleline(&mut self.path).desired_width(dialog_room::path_width(ui.ctx()));
             // The id does not depend on the rows above, which differ between kinds of export.
             let field = field.id(egui::Id::unique("path of the dialog"));
             let response = ui.add(field.hint_text("path of a file")).labelled_by(label.id);
@@ -393,7 +402,7 @@ impl Dialogs {
 
 /// Shows that the present parameters have no result, and the button that analyzes; the button of the status line is under the dialog.
 fn analyze_offer(ui: &mut Ui, cx: &mut PanelContext) {
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         let button = RichText::new(ANALYZE_NOW).color(cx.palette.accent);
         let tip = "Analyze the photograph with the present parameters (F5).";
         if ui.button(button).on_hover_text(tip).clicked() {

@@ -21,6 +21,7 @@ mod cube_panel;
 mod cursor_owners;
 mod debugger_answers;
 mod dialog;
+mod dialog_room;
 mod dock;
 mod dropped_files;
 mod elsewhere_section;

@@ -1,7 +1,7 @@
 //! Notices about finished work, warnings and errors, over the lower part of the views, so that no panel moves when a notice comes or goes.
 
 use super::theme::SMALL_PT;
-use super::{PanelContext, widgets};
+use super::{PanelContext, dialog_room, widgets};
 use crate::app::{Notice, Severity, ViewCommand};
 use egui::{Align2, Area, Frame, Id, Margin, Order, RichText, Ui, pos2};
 use std::time::Duration;
@@ -10,6 +10,8 @@ use std::time::Duration;
 const WIDTH_PT: f32 = 560.0;
 /// Largest number of notices shown at once; of more, the newest are shown.
 const MOST_NOTICES: usize = 4;
+/// Largest height of the notices, as a share of the window's.
+const MOST_HEIGHT: f32 = 0.6;
 /// Time after which the notice of a success or of an answer goes by itself, seconds. Warnings and errors stay until they are dismissed.
 pub const PASSING_SECONDS: f64 = 6.0;
 
@@ -44,14 +46,8 @@ impl Notices {
         area.fixed_pos(place).constrain(true).show(ui.ctx(), |ui| {
             frame.show(ui, |ui| {
                 ui.set_width(WIDTH_PT.min(room.width() - 40.0));
-                let hidden = state.notices.len().saturating_sub(MOST_NOTICES);
-                for notice in state.notices.iter().skip(hidden) {
-                    row(ui, cx, notice);
-                }
-                if hidden > 0 {
-                    let text = format!("{hidden} earlier");
-                    ui.label(RichText::new(text).size(SMALL_PT).color(cx.palette.secondary));
-                }
+                let height = MOST_HEIGHT * room.height();
+                dialog_room::scrolling_from_end(ui, "notices", height, |ui| rows(ui, cx));
             });
         });
     }
@@ -72,6 +68,19 @@ impl Notices {
                 ui.ctx().request_repaint_after(Duration::from_secs_f64(rest));
             }
         }
+    }
+}
+
+/// Shows the newest notices, and the number of those before.
+fn rows(ui: &mut Ui, cx: &mut PanelContext) {
+    let notices = &cx.state.notices;
+    let hidden = notices.len().saturating_sub(MOST_NOTICES);
+    for notice in notices.iter().skip(hidden) {
+        row(ui, cx, notice);
+    }
+    if hidden > 0 {
+        let text = format!("{hidden} earlier");
+        ui.label(RichText::new(text).size(SMALL_PT).color(cx.palette.secondary));
     }
 }
 

@@ -19,6 +19,12 @@ pub fn limit_lists(ui: &mut Ui) {
     ui.spacing_mut().combo_height = height_within(ui.ctx(), LIST_PT);
 }
 
+/// A scroll bar that is seen without the pointer over it: a bar that appears under the pointer alone would not tell that there are further
+/// rows.
+pub fn visible_bar() -> ScrollStyle {
+    ScrollStyle::solid()
+}
+
 /// Shows the rows of a menu that may be as high as the window. The row that a key gives the focus is scrolled into view.
 pub fn scrolling<R>(ui: &mut Ui, rows: impl FnOnce(&mut Ui) -> R) -> R {
     let room = ui.ctx().content_rect().height() - FRAME_PT;
@@ -27,8 +33,7 @@ pub fn scrolling<R>(ui: &mut Ui, rows: impl FnOnce(&mut Ui) -> R) -> R {
 
 /// As [`scrolling`], for a menu of at most `room` points.
 pub fn scrolling_within<R>(ui: &mut Ui, room: f32, rows: impl FnOnce(&mut Ui) -> R) -> R {
-    // A bar that appears under the pointer alone would not tell that there are further rows.
-    ui.spacing_mut().scroll = ScrollStyle::solid();
+    ui.spacing_mut().scroll = visible_bar();
     // egui gives a new popup the height of `Spacing::default_area_size`, whatever the window has room for.
     ui.set_max_height(room.max(40.0));
     let area = ScrollArea::vertical().max_height(room.max(40.0));

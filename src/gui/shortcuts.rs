@@ -5,10 +5,10 @@ mod shortcut;
 
 pub use debug::{KeyListeners, SpaceTap};
 
-use super::PanelContext;
 use super::action::{Action, DebugAction, TextStep, ViewStep};
 use super::keyboard_focus::is_keyboard_owned;
 use super::theme::SMALL_PT;
+use super::{PanelContext, dialog_room};
 use crate::app::Switching;
 use crate::view::{Layer, Tool};
 use egui::{Key, KeyboardShortcut, Modifiers, RichText, Ui};
@@ -144,6 +144,9 @@ const FOUR_COLUMNS_PT: f32 = 1200.0;
 
 /// A window of this width has room for three columns of keys, points.
 const THREE_COLUMNS_PT: f32 = 1000.0;
+
+/// A window of this width has room for two columns of keys, points.
+const TWO_COLUMNS_PT: f32 = 560.0;
 
 /// Width of the column of keys in the help, points.
 const KEYS_PT: f32 = 130.0;
@@ -284,12 +287,14 @@ pub fn show_help(ui: &mut Ui, cx: &PanelContext, open: &mut bool) {
         ]
     } else if room.x >= THREE_COLUMNS_PT {
         &[&["File", "Edit", "Analyze", "Compare"], &["Image", "Decisions"], &["Tools", "Pointer", "Window"]]
-    } else {
+    } else if room.x >= TWO_COLUMNS_PT {
         &[&["File", "Edit", "Analyze", "Image", "Compare"], &["Window", "Decisions", "Tools", "Pointer"]]
+    } else {
+        &[&["File", "Edit", "Analyze", "Image", "Compare", "Window", "Decisions", "Tools", "Pointer"]]
     };
     // The window with its margins and its bar is never wider than the room.
     let column_pt = ((room.x - 60.0) / columns.len() as f32 - GAP_PT).clamp(60.0, WIDEST_COLUMN_PT);
-    let height = (room.y - 120.0).max(80.0);
+    let height = dialog_room::height(&ctx);
     // egui keeps the height of a window by its id: in a larger room the list would stay as low as in the smaller one before.
     let id = egui::Id::unique("keyboard and pointer").with(height as u32);
     let shown = egui::Window::new("Keyboard and pointer")
@@ -297,17 +302,16 @@ pub fn show_help(ui: &mut Ui, cx: &PanelContext, open: &mut bool) {
         .open(open)
         .collapsible(false)
         .resizable(false)
-        .scroll([false, true])
-        .default_height(height)
-        .max_height(height)
         .anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO)
         .show(&ctx, |ui| {
-            ui.horizontal_top(|ui| {
-                for groups in columns {
-                    of_width(ui, column_pt, |ui| {
-                        groups.iter().for_each(|group| show_group(ui, cx, group, column_pt));
-                    });
-                }
+            dialog_room::scrolling(ui, "keys", height, |ui| {
+                ui.horizontal_top(|ui| {
+                    for groups in columns {
+                        of_width(ui, column_pt, |ui| {
+                            groups.iter().for_each(|group| show_group(ui, cx, group, column_pt));
+                        });
+                    }
+                });
             });
         });
     // The place of the window follows from the size of the frame before.

@@ -1,6 +1,7 @@
 //! Tests of menus and lists in a window that is too low for them: every row can be reached, by the wheel and by keys.
 
-use crate::window::{Fixture, Window, click, press, with_gpu};
+use crate::window::{Fixture, Window, answer, apply, click, named, press, says, state, with_gpu};
+use dichroscope::app::{Severity, ViewCommand};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, MouseWheelUnit, TouchPhase, Vec2, pos2, vec2};
 use egui_kittest::kittest::Queryable;
@@ -52,4 +53,78 @@ fn keys_lead_to_a_row_below_the_window() {
     window.run_steps(40);
     let row = window.get_by_role_and_label(Role::RadioButton, "Light");
     assert!(row.is_focused() && row.rect().bottom() <= SMALLEST.y, "{:?}", row.rect());
+}
+
+/// Whether the widget with this role and name lies within the window.
+#[track_caller]
+fn is_within(window: &Window, role: Role, name: &str) -> bool {
+    window.ctx.content_rect().contains_rect(named(window, role, name).rect())
+}
+
+#[test]
+fn the_export_dialog_keeps_its_path_and_button_within_a_small_window_with_large_text() {
+    let Some(mut window) = with_gpu(SMALLEST, Fixture::Tiny) else { return };
+    for factor in [1.0, 1.5, 2.0] {
+        window.ctx.set_zoom_factor(factor);
+        window.run_steps(3);
+        press(&mut window, Modifiers::COMMAND, Key::E);
+        window.run_steps(6);
+        for (role, name) in [
+            (Role::Button, "Export"),
+            (Role::Button, "Browse"),
+            (Role::TextInput, "Path"),
+            (Role::RadioButton, "Photograph without highlights"),
+        ] {
+            assert!(is_within(&window, role, name), "{name} at {factor}");
+        }
+        named(&window, Role::RadioButton, "Figures and tables").focus();
+        window.run_steps(2);
+        named(&window, Role::RadioButton, "Figures and tables").scroll_to_me();
+        window.run_steps(30);
+        assert!(is_within(&window, Role::RadioButton, "Figures and tables"), "the last kind at {factor}");
+        press(&mut window, Modifiers::NONE, Key::Escape);
+        window.run_steps(3);
+    }
+}
+
+#[test]
+fn the_other_windows_over_the_panels_stay_within_a_small_window_with_large_text() {
+    let Some(mut window) = with_gpu(SMALLEST, Fixture::Tiny) else { return };
+    for factor in [1.0, 1.5, 2.0] {
+        window.ctx.set_zoom_factor(factor);
+        window.run_steps(3);
+        press(&mut window, Modifiers::COMMAND, Key::O);
+        window.run_steps(4);
+        assert!(is_within(&window, Role::TextInput, "Path") && is_within(&window, Role::Button, "Browse"));
+        let below = std::path::PathBuf::from("/a folder that is not there/".repeat(6));
+        answer(&mut window, &below);
+        window.run_steps(4);
+        assert!(says(&window, "there is no such file") && is_within(&window, Role::TextInput, "Path"));
+        press(&mut window, Modifiers::NONE, Key::Escape);
+        press(&mut window, Modifiers::COMMAND, Key::P);
+        window.run_steps(4);
+        assert!(is_within(&window, Role::TextInput, "Command"), "the field at {factor}");
+        for _ in 0..12 {
+            press(&mut window, Modifiers::NONE, Key::ArrowDown);
+        }
+        window.run_steps(30);
+        assert!(is_within(&window, Role::Button, "Edit: Redo"), "the chosen command at {factor}");
+        press(&mut window, Modifiers::NONE, Key::Escape);
+        press(&mut window, Modifiers::NONE, Key::F1);
+        window.run_steps(6);
+        assert!(is_within(&window, Role::Button, "Close window"), "the list of keys at {factor}");
+        press(&mut window, Modifiers::NONE, Key::F1);
+        for number in 0..5 {
+            let text = format!("{number}: {}", "a long notice with many words ".repeat(5));
+            apply(&mut window, ViewCommand::Notify(Severity::Error, text));
+        }
+        window.run_steps(6);
+        let dismiss: Vec<_> = window.get_all_by_role_and_label(Role::Button, "Dismiss").collect();
+        let last = dismiss.last().expect("there are notices").rect();
+        assert!(window.ctx.content_rect().contains_rect(last), "{last:?}");
+        press(&mut window, Modifiers::NONE, Key::Escape);
+        for notice in state(&window).notices.clone() {
+            apply(&mut window, ViewCommand::Dismiss(notice.id));
+        }
+    }
 }
