@@ -31,6 +31,34 @@ const ROLES: [LegendEntry; 4] = [
     LegendEntry::new("lost", [0x8A, 0x8A, 0x8A], "6: clipped in every band"),
 ];
 
+/// A blob that was judged where no region holds, and is a highlight or not.
+const BLOBS: [LegendEntry; 2] = [
+    LegendEntry::new(
+        "highlight found",
+        TAKEN,
+        "where no region holds: a blob that is a highlight, or a clipped one that is filled",
+    ),
+    LegendEntry::new(
+        "no highlight",
+        REFUSED,
+        "where no region holds: a blob that is no highlight, or a clipped one that is not filled",
+    ),
+];
+
+/// A clipped area that was judged by its edge, and may be a highlight or not.
+const EDGES: [LegendEntry; 2] = [
+    LegendEntry::new(
+        "may be a highlight",
+        TAKEN,
+        "beyond 4: a clipped area, and its edge, that may be a highlight",
+    ),
+    LegendEntry::new(
+        "clipped object",
+        REFUSED,
+        "beyond 4: a white thing that clips, and its edge: no highlight",
+    ),
+];
+
 /// The legend of an instant.
 pub fn instant_legend(instant: &Instant) -> Vec<LegendEntry> {
     match &instant.view {
@@ -49,22 +77,11 @@ pub fn instant_legend(instant: &Instant) -> Vec<LegendEntry> {
             }
             legend
         }
-        InstantView::Roles(roles) => {
-            let mut legend = ROLES.to_vec();
-            match roles.blob {
-                Some((_, true)) => legend.push(LegendEntry::new(
-                    "highlight found",
-                    TAKEN,
-                    "where no region holds: a blob that is a highlight, or a clipped one that is filled",
-                )),
-                Some((_, false)) => legend.push(LegendEntry::new(
-                    "no highlight",
-                    REFUSED,
-                    "where no region holds: a blob that is no highlight, or a clipped one that is not filled",
-                )),
-                None => {}
-            }
-            legend
+        InstantView::Roles(RolesView { blob, is_edge_judged: true, .. }) => {
+            blob.iter().map(|(_, kept)| EDGES[usize::from(!kept)]).collect()
+        }
+        InstantView::Roles(RolesView { blob, .. }) => {
+            ROLES.into_iter().chain(blob.iter().map(|(_, kept)| BLOBS[usize::from(!kept)])).collect()
         }
         InstantView::Regions(regions) => {
             let own = regions.own_color();
@@ -365,8 +382,8 @@ mod tests {
     fn roles_are_shown_as_far_as_they_are_given() {
         let kinds = vec![PixelKind::Matte, PixelKind::Highlight, PixelKind::Restored, PixelKind::Unassigned];
         let kinds = Raster::from_vec(4, 1, kinds).unwrap();
-        let found =
-            painted(InstantView::Roles(RolesView { kinds, blob: Some((vec![3], true)) }), 4, 1, &look());
+        let view = RolesView { kinds, blob: Some((vec![3], true)), is_edge_judged: false };
+        let found = painted(InstantView::Roles(view), 4, 1, &look());
         let color = |role: usize| with_alpha(ROLES[role].color, 255);
         let blob = with_alpha(TAKEN, 235);
         assert_eq!(found.as_slice(), [color(0), color(1), color(2), blob]);

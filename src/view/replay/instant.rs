@@ -74,6 +74,8 @@ pub struct RolesView {
     pub kinds: Raster<PixelKind>,
     /// The pixels of the blob that the step taken last judged, and whether the blob is a highlight.
     pub blob: Option<(Vec<u32>, bool)>,
+    /// Whether the blob is a clipped area that is judged by its edge, before any kind of pixel is decided.
+    pub is_edge_judged: bool,
 }
 
 impl WindowsView {
@@ -128,7 +130,7 @@ impl Instant {
         let view = match stage {
             None => InstantView::Nothing,
             Some(Stage::Masks) => blob_at_cursor(replay).map_or(InstantView::Nothing, |blob| {
-                InstantView::Roles(RolesView { kinds: roles(replay), blob: Some(blob) })
+                InstantView::Roles(RolesView { kinds: roles(replay), blob: Some(blob), is_edge_judged: true })
             }),
             Some(Stage::Classify | Stage::Merge) => {
                 windows.map_or(InstantView::Nothing, InstantView::Windows)
@@ -139,7 +141,8 @@ impl Instant {
                 InstantView::Regions(regions(replay, names, chosen, colors, masks, windows))
             }
             Some(Stage::Split) => {
-                InstantView::Roles(RolesView { kinds: roles(replay), blob: blob_at_cursor(replay) })
+                let (kinds, blob) = (roles(replay), blob_at_cursor(replay));
+                InstantView::Roles(RolesView { kinds, blob, is_edge_judged: false })
             }
         };
         Self { view, pixel, window }.of_photograph(&replay.trace().pixel_blocks())
@@ -169,6 +172,7 @@ impl Instant {
             InstantView::Roles(roles) => InstantView::Roles(RolesView {
                 kinds: blocks.enlarged(&roles.kinds),
                 blob: roles.blob.map(|(pixels, kept)| (expanded(pixels), kept)),
+                is_edge_judged: roles.is_edge_judged,
             }),
         };
         let middle = |pixel: PixelIndex| PixelIndex::from_index(blocks.middle(pixel.index()));

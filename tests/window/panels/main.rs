@@ -8,6 +8,7 @@
 mod accessibility;
 mod by_hand;
 mod canceling;
+mod clipped_objects;
 mod closing;
 mod color_space_panel;
 mod colors;
