@@ -286,6 +286,8 @@ pub enum DebugAction {
     Into,
     /// Move to the next breakpoint in this direction.
     Breakpoint(Direction),
+    /// Set a breakpoint for the selected pixel or region, or take that one away.
+    ToggleBreakpoint,
     /// Move to the next change of the selected item in this direction.
     Change(Direction),
     /// Move to the next event of a kind.

@@ -329,6 +329,7 @@ fn decisions(ui: &mut Ui, cx: &mut PanelContext) {
     ui.separator();
     row(ui, "Next breakpoint", DebugAction::Breakpoint(Forward), traced && any_breakpoint);
     row(ui, "Breakpoint before", DebugAction::Breakpoint(Back), traced && any_breakpoint);
+    row(ui, "Breakpoint for what is selected, or no longer", DebugAction::ToggleBreakpoint, traced);
     row(ui, "Next change of what is selected", DebugAction::Change(Forward), goal);
     row(ui, "Change before, of what is selected", DebugAction::Change(Back), goal);
 }

@@ -3,7 +3,7 @@
 use super::PanelContext;
 use super::action::DebugAction;
 use crate::app::Direction::Forward;
-use crate::app::{DebugCommand, DebugSettings, Goal, Severity, State, ViewCommand};
+use crate::app::{Breakpoint, Condition, DebugCommand, DebugSettings, Goal, Severity, State, ViewCommand};
 use crate::view::Item;
 
 /// Sends the command of an action on the debugger.
@@ -24,6 +24,15 @@ pub fn move_cursor(action: DebugAction, cx: &mut PanelContext) {
         DebugAction::End => DebugCommand::Seek(usize::MAX),
         DebugAction::Into => DebugCommand::Into,
         DebugAction::Breakpoint(direction) => DebugCommand::RunTo(Goal::Breakpoint, direction),
+        DebugAction::ToggleBreakpoint => {
+            let Some(condition) = selected_condition(state) else {
+                let text = "a breakpoint for what: select a region, or with Alt + click a pixel";
+                return cx.send(ViewCommand::Notify(Severity::Answer, text.to_owned()));
+            };
+            let (breakpoints, text) = toggled(&state.view.debug.breakpoints, condition, state);
+            cx.send(ViewCommand::Notify(Severity::Answer, text));
+            DebugCommand::Settings(DebugSettings { breakpoints, ..state.view.debug.clone() })
+        }
         DebugAction::Change(direction) => {
             let Some(goal) = selected_goal(state) else {
                 return cx.send(ViewCommand::Notify(Severity::Warning, why_no_goal(state)));
@@ -67,6 +76,40 @@ fn why_no_goal(state: &State) -> String {
         Some(region) => format!("there is no step about region {region} on the timeline"),
         None => "changes of what: select a region, or with Alt + click a pixel".to_owned(),
     }
+}
+
+/// Number of pixels beyond which a region that a key chose stops the cursor.
+const MOST_PIXELS: u32 = 1000;
+
+/// The condition of a breakpoint for what is selected: a pixel that was clicked changes its owner, or a region outgrows a size.
+fn selected_condition(state: &State) -> Option<Condition> {
+    match selected_goal(state)? {
+        Goal::Pixel(pixel) => Some(Condition::PixelChangesOwner(pixel)),
+        Goal::Hypothesis(hypothesis) => {
+            Some(Condition::RegionExceeds { hypothesis: Some(hypothesis), pixels: MOST_PIXELS })
+        }
+        Goal::Breakpoint | Goal::Kind(_) | Goal::StepCount(_) => None,
+    }
+}
+
+/// The breakpoints with one more of this condition, or without that of this condition, and the sentence that says so.
+fn toggled(breakpoints: &[Breakpoint], condition: Condition, state: &State) -> (Vec<Breakpoint>, String) {
+    let mut all = breakpoints.to_vec();
+    let what = match condition {
+        Condition::PixelChangesOwner(pixel) => {
+            let [x, y] = pixel.position(state.picture.as_ref().map_or(1, |picture| picture.size().0));
+            format!("where pixel {x}, {y} changes its owner")
+        }
+        _ => format!("where the region exceeds {} pixels", crate::describe::grouped(MOST_PIXELS)),
+    };
+    let is_known = |breakpoint: &Breakpoint| breakpoint.condition == condition;
+    if let Some(index) = all.iter().position(is_known) {
+        all.remove(index);
+        return (all, format!("the breakpoint {what} was taken away"));
+    }
+    all.push(Breakpoint { enabled: true, condition });
+    let number = all.len();
+    (all, format!("breakpoint {number} stops {what}: N runs to the next, Shift+N to the one before"))
 }
 
 /// The selected item, as a goal to run to.

@@ -37,6 +37,12 @@ pub const KEYS: &[Shortcut] = &[
     key(Modifiers::NONE, Key::End, DebugAction::End, "To the result"),
     key(Modifiers::SHIFT, Key::N, DebugAction::Breakpoint(Back), "The breakpoint before"),
     key(Modifiers::NONE, Key::N, DebugAction::Breakpoint(Forward), "The next breakpoint"),
+    key(
+        Modifiers::NONE,
+        Key::F9,
+        DebugAction::ToggleBreakpoint,
+        "A breakpoint for what is selected, or no longer",
+    ),
     key(Modifiers::SHIFT, Key::J, DebugAction::Change(Back), "The change before, of what is selected"),
     key(Modifiers::NONE, Key::J, DebugAction::Change(Forward), "The next change of what is selected"),
     key(Modifiers::NONE, Key::D, DebugAction::Record, "Record decisions, or do not"),

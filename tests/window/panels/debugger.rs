@@ -1,8 +1,8 @@
 //! Tests of the debugger: playing, seeking, stepping, breakpoints, and the texts about the step at the cursor.
 
 use crate::window::{
-    Window, apply, at, choose, click, drag, item, named, press, says, state, tap, tiny_window, with_gpu,
-    words, zoom_in,
+    Window, apply, at, choose, click, drag, item, named, notice, press, region, says, state, tap,
+    tiny_window, with_gpu, words, zoom_in,
 };
 use dichroscope::app::{
     Breakpoint, Command, Condition, DebugCommand, DebugSettings, Direction, Edit, StepUnit, ViewCommand,
@@ -313,6 +313,28 @@ fn a_breakpoint_on_the_selected_pixel_is_found_by_its_key() {
     plain(&mut window, Key::Home);
     plain(&mut window, Key::N);
     assert!(matches!(replay(&window).last(), Some(Step::Claim { pixel: found, .. }) if found == pixel));
+}
+
+#[test]
+fn a_key_sets_a_breakpoint_for_what_is_selected_and_takes_it_away() {
+    let mut window = tiny_window();
+    plain(&mut window, Key::F9);
+    assert!(notice(&window).starts_with("a breakpoint for what"), "{}", notice(&window));
+    let (_, steps) = hypothesis(&window);
+    let pixel = trace(&window).steps_in(steps).find_map(|(_, step)| step.pixel()).unwrap();
+    apply(&mut window, Edit::Select(Some(Item::Pixel(pixel))));
+    plain(&mut window, Key::F9);
+    assert_eq!(state(&window).view.debug.breakpoints[0].condition, Condition::PixelChangesOwner(pixel));
+    assert!(notice(&window).starts_with("breakpoint 1 stops where pixel"), "{}", notice(&window));
+    plain(&mut window, Key::Home);
+    plain(&mut window, Key::N);
+    assert!(matches!(replay(&window).last(), Some(Step::Claim { pixel: found, .. }) if found == pixel));
+    plain(&mut window, Key::F9);
+    assert!(state(&window).view.debug.breakpoints.is_empty() && notice(&window).ends_with("was taken away"));
+    apply(&mut window, Edit::Select(Some(region(1))));
+    plain(&mut window, Key::F9);
+    let condition = state(&window).view.debug.breakpoints[0].condition;
+    assert!(matches!(condition, Condition::RegionExceeds { hypothesis: Some(_), .. }), "{condition:?}");
 }
 
 #[test]
