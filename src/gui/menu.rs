@@ -7,7 +7,7 @@ use super::action::{Action, CubeAction, DebugAction, TextStep, ViewStep};
 use super::cube_choices::{COLORINGS, NamedView};
 use super::dock::Dock;
 use super::lacking_result::ANALYZE_NOW;
-use super::menu_keys::{MenuKeys, submenu};
+use super::menu_keys::{MenuKeys, submenu, submenu_with_fields};
 use super::move_cursor::selected_goal;
 use super::pane::Pane;
 use super::shortcuts::keys_of;
@@ -113,7 +113,7 @@ fn file(ui: &mut Ui, cx: &mut PanelContext) {
         submenu(ui, "Open photographs", |ui| open_photographs(ui, cx));
     }
     submenu(ui, "Sample scenes", |ui| samples(ui, cx));
-    submenu(ui, "Read as", |ui| read_as(ui, cx));
+    submenu_with_fields(ui, "Read as", |ui| read_as(ui, cx));
     elsewhere(ui, cx);
     ui.separator();
     item(ui, cx, "Open workspace\u{2026}", Action::OpenWorkspace, true);
@@ -185,15 +185,25 @@ fn open_photographs(ui: &mut Ui, cx: &mut PanelContext) {
     item(ui, cx, "Close this photograph", Action::ClosePhotograph, several);
 }
 
+/// Gives fields in a menu the ground of fields; egui draws them like the rows of the menu, as text alone.
+fn fill_fields(ui: &mut Ui) {
+    let ground = ui.visuals().extreme_bg_color;
+    ui.visuals_mut().widgets.inactive.weak_bg_fill = ground;
+}
+
 /// The menu of the encodings, for files that declare no encoding or a wrong one.
 fn read_as(ui: &mut Ui, cx: &mut PanelContext) {
     let open = cx.state.picture.is_some();
     let now = cx.state.picture.as_ref().map_or_else(ReadOptions::default, |picture| picture.reading);
     for (index, reading) in READINGS.iter().enumerate() {
         let states = [now.encoding == reading.encoding, open];
-        choice(ui, cx, reading.name, Action::ReadAs(index), states).on_hover_text(reading.tip);
+        let row = choice(ui, cx, reading.name, Action::ReadAs(index), states).on_hover_text(reading.tip);
+        if row.clicked() {
+            ui.close();
+        }
     }
     ui.horizontal(|ui| {
+        fill_fields(ui);
         let tip = "sRGB after the contrast curve of a camera: its slope in the middle. Above 1 shadows are darker and lights brighter; 1 is sRGB alone.";
         ui.label("sRGB with contrast").on_hover_text(tip);
         let mut contrast = now.encoding.contrast().unwrap_or(1.0);
@@ -202,11 +212,13 @@ fn read_as(ui: &mut Ui, cx: &mut PanelContext) {
         let field = ui.add(field.fixed_decimals(2)).on_hover_text(tip);
         field.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, "contrast"));
         if field.changed() {
+            ui.close();
             cx.send(JobCommand::ReadAs(ReadOptions { encoding: EncodingChoice::of_contrast(contrast), ..now }));
         }
     });
     ui.separator();
     ui.horizontal(|ui| {
+        fill_fields(ui);
         let tip = "Counts that an integer's maximum or a float's 1.0 stands for; 255 unless the file has head-room.";
         ui.label("full scale").on_hover_text(tip);
         let mut counts = now.full_scale.unwrap_or(FULL_SCALE_COUNTS);
@@ -215,6 +227,7 @@ fn read_as(ui: &mut Ui, cx: &mut PanelContext) {
         let field = ui.add(field.max_decimals(3).suffix(" counts")).on_hover_text(tip);
         field.widget_info(|| WidgetInfo::labeled(Role::SpinButton, true, "full scale"));
         if field.changed() {
+            ui.close();
             cx.send(JobCommand::ReadAs(ReadOptions { full_scale: Some(counts), ..now }));
         }
     });

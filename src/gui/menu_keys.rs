@@ -1,9 +1,9 @@
 //! The menu bar by the keyboard: F10, and Alt with the first letter of a menu, open menus; the arrow keys to the left and right go on
 //! to the next menu. Within a menu, egui moves the focus by the arrow keys.
 
-use super::popup_scroll::{menu_button, scrolling_within};
-use egui::containers::menu::{MenuButton, MenuState};
-use egui::{Context, FocusDirection, Id, Key, Memory, Modifiers, Popup, Ui};
+use super::popup_scroll::{menu_button, scrolling, scrolling_within};
+use egui::containers::menu::{MenuButton, MenuConfig, MenuState, SubMenuButton, is_in_menu};
+use egui::{Context, FocusDirection, Id, Key, Memory, Modifiers, Popup, PopupCloseBehavior, Ui};
 
 /// Height of what lies between the bar and the last row of a menu that is as high as the window, points.
 const BELOW_BAR_PT: f32 = 24.0;
@@ -155,6 +155,16 @@ impl MenuKeys {
 pub fn submenu(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
     let id = menu_button(ui, name, content).response.id;
     ui.data_mut(|data| data.insert_temp(id.with(SUBMENU), true));
+}
+
+/// As [`submenu`], for a menu with fields: a click into a field leaves the menu open, and a row that is chosen is to close the menu.
+pub fn submenu_with_fields(ui: &mut Ui, name: &str, content: impl FnOnce(&mut Ui)) {
+    if !is_in_menu(ui) {
+        return submenu(ui, name, content);
+    }
+    let config = MenuConfig::new().close_behavior(PopupCloseBehavior::CloseOnClickOutside);
+    let (button, _) = SubMenuButton::new(name).config(config).ui(ui, |ui| scrolling(ui, content));
+    ui.data_mut(|data| data.insert_temp(button.id.with(SUBMENU), true));
 }
 
 /// The mark of a widget that opens a further menu.

@@ -124,6 +124,28 @@ fn drop_file(window: &mut Window, path: &Path, bytes: &[u8]) {
 }
 
 #[test]
+fn a_contrast_is_typed_into_the_menu_and_a_choice_closes_it() {
+    let mut window = tiny_window();
+    let contrast = |window: &Window| {
+        let reading = state(window).picture.as_ref().unwrap().reading;
+        reading.encoding.contrast()
+    };
+    choose(&mut window, "File", "Read as");
+    click(&mut window, Role::SpinButton, "contrast");
+    assert!(says(&window, "gamma 2.2"), "the menu stays open");
+    window.key_press_modifiers(Modifiers::COMMAND, Key::A);
+    window.event(Event::Text("1.5".to_owned()));
+    window.run_steps(2);
+    press(&mut window, Modifiers::NONE, Key::Enter);
+    window.run_steps(3);
+    assert_eq!(contrast(&window), Some(1.5));
+    assert!(!says(&window, "gamma 2.2"), "the menu is closed");
+    choose(&mut window, "File", "Read as");
+    click(&mut window, Role::RadioButton, "sRGB");
+    assert!(contrast(&window).is_none() && !says(&window, "gamma 2.2"));
+}
+
+#[test]
 fn a_dropped_file_opens_by_its_path_or_its_bytes() {
     let mut window = window();
     drop_file(&mut window, &tiny(), &[]);
