@@ -1,10 +1,14 @@
 //! Files that are dropped on the window, and paths and pictures that are pasted.
 
 use super::PanelContext;
+use super::theme::{TITLE_PT, ThemeColors};
 use super::typed_path::typed_paths;
 use crate::app::{JobCommand, Severity, ViewCommand};
 use crate::view::Origin;
-use egui::{DroppedFile, Event, Ui};
+use egui::{
+    Align2, Area, DroppedFile, Event, Frame, HoveredFile, Id, LayerId, Order, RichText, Stroke, StrokeKind,
+    Ui, Vec2,
+};
 use std::sync::Arc;
 
 /// Opens files that were dropped on the window together; returns whether there were any.
@@ -19,6 +23,52 @@ pub fn open_dropped(ui: &Ui, cx: &mut PanelContext) -> bool {
     }
     open(cx, origins);
     !dropped.is_empty()
+}
+
+/// What is told while files are dragged over the window.
+#[derive(Default)]
+pub struct DropHint {
+    /// Whether the drag has ended without a message of the program that began it: pointer or keys were used since.
+    is_over: bool,
+}
+
+impl DropHint {
+    /// Shows over everything what a drop does, while files are dragged over the window. `asked`: the title of an open dialog that asks for
+    /// a file other than a photograph.
+    pub fn show(&mut self, ui: &Ui, palette: &ThemeColors, asked: Option<&str>) {
+        let (hovered, is_used) = ui.input(|input| {
+            let is_of_person = |event: &Event| matches!(event, Event::PointerMoved(_) | Event::Key { .. });
+            (input.raw.hovered_files.clone(), input.events.iter().any(is_of_person))
+        });
+        self.is_over = !hovered.is_empty() && (self.is_over || is_used);
+        if hovered.is_empty() || self.is_over {
+            return;
+        }
+        let what = dragged(&hovered);
+        let text = asked.map_or_else(
+            || format!("Drop to open {what}"),
+            |asked| format!("Drop for \u{201c}{asked}\u{201d}: {what}"),
+        );
+        let (ctx, id) = (ui.ctx(), Id::unique("drop hint"));
+        let painter = ctx.layer_painter(LayerId::new(Order::Tooltip, id.with("frame")));
+        painter.rect_stroke(ctx.content_rect(), 0.0, Stroke::new(3.0, palette.accent), StrokeKind::Inside);
+        let area = Area::new(id).order(Order::Tooltip).anchor(Align2::CENTER_CENTER, Vec2::ZERO);
+        area.interactable(false).show(ctx, |ui| {
+            let frame = Frame::popup(ui.style()).fill(palette.panel).stroke(Stroke::new(1.0, palette.accent));
+            frame.inner_margin(16).show(ui, |ui| ui.label(RichText::new(text).size(TITLE_PT)));
+        });
+    }
+}
+
+/// The files that are dragged, in words.
+fn dragged(files: &[HoveredFile]) -> String {
+    match files {
+        [file] => {
+            let name = file.path.as_ref().and_then(|path| path.file_name());
+            name.map_or_else(|| "a file".to_owned(), |name| name.to_string_lossy().into_owned())
+        }
+        several => format!("{} files", several.len()),
+    }
 }
 
 /// Opens pasted paths and pictures, unless a text is being edited.

@@ -6,7 +6,7 @@ use super::command_palette::CommandPalette;
 use super::compact_dock::CompactDock;
 use super::cube_choices::{NEEDS_PLANE, NamedView};
 use super::dock::{Dock, Panels, TAB_BAR_PT};
-use super::dropped_files::{open_dropped, open_pasted};
+use super::dropped_files::{DropHint, open_dropped, open_pasted};
 use super::files::Dialogs;
 use super::keyboard_focus::KeyboardFocus;
 use super::menu_keys::MenuKeys;
@@ -41,6 +41,7 @@ pub struct WindowContent {
     keyboard_focus: KeyboardFocus,
     menu_keys: MenuKeys,
     last_hover: LastHover,
+    drop_hint: DropHint,
     /// The line of the profile in the last frame.
     profile: ProfileLine,
     /// Whether a font for further scripts was looked for.
@@ -261,6 +262,7 @@ impl WindowContent {
         let is_saving = self.dialogs.is_open() || cx.state.jobs.export.is_some();
         self.closing.close_when_saved(ui, cx, is_saving);
         shortcuts::show_help(ui, cx, &mut self.help);
+        self.drop_hint.show(ui, cx.palette, self.dialogs.asked_file());
     }
 
     /// Opens what is dropped and pasted. A file that is dropped while a dialog asks for a label map, a workspace or the like is the dialog's;

@@ -146,6 +146,31 @@ fn a_contrast_is_typed_into_the_menu_and_a_choice_closes_it() {
 }
 
 #[test]
+fn files_dragged_over_the_window_are_told_what_a_drop_does() {
+    let mut window = window();
+    let hover = |window: &mut Window, names: &[&str]| {
+        let file = |name: &&str| egui::HoveredFile { path: Some(PathBuf::from(name)), ..Default::default() };
+        window.input_mut().hovered_files = names.iter().map(file).collect();
+        window.run_steps(3);
+    };
+    hover(&mut window, &["/a/cups.png"]);
+    assert!(says(&window, "Drop to open cups.png"));
+    hover(&mut window, &["/a/cups.png", "/a/pans.png"]);
+    assert!(says(&window, "Drop to open 2 files"));
+    hover(&mut window, &[]);
+    assert!(!says(&window, "Drop to open"));
+    hover(&mut window, &["/a/cups.png"]);
+    window.hover_at(egui::pos2(300.0, 300.0));
+    window.run_steps(2);
+    assert!(!says(&window, "Drop to open"), "a drag that ended without a message");
+    hover(&mut window, &[]);
+    drop_file(&mut window, &tiny(), &[]);
+    choose(&mut window, "File", "Open label map");
+    hover(&mut window, &["/a/map.png"]);
+    assert!(says(&window, "Drop for \u{201c}Open a label map of another program\u{201d}: map.png"));
+}
+
+#[test]
 fn a_dropped_file_opens_by_its_path_or_its_bytes() {
     let mut window = window();
     drop_file(&mut window, &tiny(), &[]);
