@@ -78,6 +78,7 @@ mod widgets;
 mod window;
 mod window_content;
 mod work_shown;
+mod working_sign;
 
 pub use app::App;
 pub use pane::Pane;

@@ -1,12 +1,11 @@
 //! The status line: photograph, size, encoding, noise, number of regions, coverage, time, and the
 //! progress of running work.
 
-use super::action::Action;
 use super::theme::SMALL_PT;
 use super::work_shown::{PROGRESS_DELAY, RECORDING_DELAY};
-use super::{PanelContext, lacking_result};
+use super::{PanelContext, lacking_result, working_sign};
 use crate::analysis::Stage;
-use crate::app::{Job, JobState};
+use crate::app::{Command, Job, JobCommand, JobState};
 use crate::params::Parameter;
 use egui::accesskit::Role;
 use egui::{Align, Layout, RichText, Ui, WidgetInfo};
@@ -118,16 +117,19 @@ struct Progress {
     words: String,
     /// The share that is done, 0…1; none where that is not known.
     done: Option<f32>,
-    /// Of work that can be canceled: the accessible name of the button, its tooltip and its action.
-    cancel: Option<(&'static str, &'static str, Action)>,
+    /// Of work that can be canceled: the accessible name of the button, its tooltip and its command.
+    cancel: Option<(&'static str, &'static str, JobCommand)>,
 }
 
-/// The work that is under way; none where the window waits for nothing.
-fn progress_of(jobs: &JobState) -> Option<Progress> {
+/// The work that is under way; none where the window waits for nothing. `has_preview`: whether the result for the working picture is there,
+/// after which the stages are those at full resolution.
+fn progress_of(jobs: &JobState, has_preview: bool) -> Option<Progress> {
     if let Some(job) = jobs.analysis {
         let tip = "Stop the analysis; the result before stays (Esc).";
-        let cancel = ("Cancel the analysis", tip, Action::CancelAnalysis);
-        return Some(staged(job, PROGRESS_DELAY, "analyzing", cancel));
+        let cancel = ("Cancel the analysis", tip, JobCommand::CancelAnalysis);
+        let progress = staged(job, PROGRESS_DELAY, "analyzing", cancel);
+        let words = "analyzing: full resolution".to_owned();
+        return Some(if has_preview { Progress { words, done: None, ..progress } } else { progress });
     }
     let delay = PROGRESS_DELAY;
     if let Some(job) = jobs.reading {
@@ -136,17 +138,22 @@ fn progress_of(jobs: &JobState) -> Option<Progress> {
     if let Some(job) = jobs.export {
         let done = job.files.map(|(done, total)| done as f32 / total.max(1) as f32);
         let tip = "Stop writing; nothing is left half written.";
-        let cancel = (!jobs.cancels_export).then_some(("Cancel the export", tip, Action::CancelExport));
+        let cancel = (!jobs.cancels_export).then_some(("Cancel the export", tip, JobCommand::CancelExport));
         let words = if jobs.cancels_export { "canceling" } else { "writing" };
         return Some(Progress { job, delay, words: words.to_owned(), done, cancel });
     }
     let tip = "Stop recording the decisions for the timeline; the result stays (Esc).";
-    let cancel = ("Cancel the recording", tip, Action::CancelAnalysis);
+    let cancel = ("Cancel the recording", tip, JobCommand::CancelAnalysis);
     jobs.recording.map(|job| staged(job, RECORDING_DELAY, "recording", cancel))
 }
 
 /// The progress of work that goes through the stages. `verb`: what is done, in a word.
-fn staged(job: Job, delay: Duration, verb: &str, cancel: (&'static str, &'static str, Action)) -> Progress {
+fn staged(
+    job: Job,
+    delay: Duration,
+    verb: &str,
+    cancel: (&'static str, &'static str, JobCommand),
+) -> Progress {
     let words = job.stage.map_or_else(|| "waiting".to_owned(), |stage| format!("{verb}: {}", stage.name()));
     let done = job.stage.map(|stage| stage as usize as f32 / Stage::ALL.len() as f32);
     Progress { job, delay, words, done, cancel: Some(cancel) }
@@ -154,7 +161,9 @@ fn staged(job: Job, delay: Duration, verb: &str, cancel: (&'static str, &'static
 
 /// Shows the progress of work that takes longer than a moment, or what is not analyzed.
 fn progress(ui: &mut Ui, cx: &mut PanelContext) {
-    let Some(Progress { job, delay, words, done, cancel }) = progress_of(&cx.state.jobs) else {
+    let has_preview =
+        cx.state.shown_preview().is_some_and(|(preview, _)| preview.shown.generation >= cx.state.generation);
+    let Some(Progress { job, delay, words, done, cancel }) = progress_of(&cx.state.jobs, has_preview) else {
         if cx.state.lacks_result() {
             lacking_result::show_status(ui, cx);
         }
@@ -165,21 +174,25 @@ fn progress(ui: &mut Ui, cx: &mut PanelContext) {
         ui.ctx().request_repaint_after(rest);
         return;
     }
-    if let Some((name, tip, action)) = cancel {
+    if let Some((name, tip, command)) = cancel {
         let button =
             ui.add(egui::Button::new(RichText::new("Cancel").size(SMALL_PT)).small()).on_hover_text(tip);
         button.widget_info(|| WidgetInfo::labeled(Role::Button, true, name));
         if button.clicked() {
-            cx.act(action);
+            cx.send(command);
         }
     }
+    // The command is applied after the frame: the frame in which it was given says so already.
+    let is_canceled =
+        cx.commands.iter().any(|command| matches!(command, Command::Job(JobCommand::CancelAnalysis)));
+    let words = if is_canceled { "canceling".to_owned() } else { words };
     // A bar without a measure would look like work that has ended.
     if let Some(done) = done {
         let bar = egui::ProgressBar::new(done).desired_width(72.0).desired_height(6.0);
         ui.add(bar.fill(cx.palette.accent));
     }
     ui.label(RichText::new(words).size(SMALL_PT).color(cx.palette.accent));
-    ui.add(egui::Spinner::new().size(12.0).color(cx.palette.accent));
+    working_sign::show(ui, cx.palette.accent, elapsed);
 }
 
 #[cfg(test)]
