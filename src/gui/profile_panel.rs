@@ -66,7 +66,9 @@ impl ProfilePanel {
             Some(Item::Pixel(pixel)) => Some(pixel),
             _ => None,
         };
-        let ends = profile_ends(cx.state.view.profile, &picture, selected.or(hovered));
+        // A click selects a region, and its pixel is the one that is explained.
+        let through = selected.or(hovered).or(cx.state.explained_pixel());
+        let ends = profile_ends(cx.state.view.profile, &picture, through);
         // At the debugger's cursor nothing is split yet.
         let is_split = cx.state.followed().is_none();
         let shown = cx.state.shown().filter(|_| is_split);
@@ -90,8 +92,8 @@ fn toolbar(ui: &mut Ui, cx: &mut PanelContext, ends: [[f32; 2]; 2], samples: &[P
     let now = cx.state.view.profile;
     ui.horizontal(|ui| {
         for (line, name, tip) in [
-            (ProfileLine::Row, "row", "Along the row of the selected or hovered pixel."),
-            (ProfileLine::Column, "column", "Along the column of the selected or hovered pixel."),
+            (ProfileLine::Row, "row", "Along the row of the selected, hovered or clicked pixel."),
+            (ProfileLine::Column, "column", "Along the column of the selected, hovered or clicked pixel."),
         ] {
             if ui.selectable_label(now == line, name).on_hover_text(tip).clicked() {
                 cx.send(ViewCommand::Profile(line));
