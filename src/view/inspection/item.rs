@@ -4,7 +4,7 @@ use super::fits::region_tests;
 use super::step::{holds_verdict, window_tests};
 use super::{Inspection, ThresholdTest, Tone};
 use crate::color::vec3;
-use crate::describe::{counted, grouped, reason_label, reason_meaning};
+use crate::describe::{counted, grouped, grouped_sentences, reason_label, reason_meaning};
 use crate::intrinsic::Reason;
 use crate::params::Baseline;
 use crate::raster::{Mask, PixelIndex, RegionId, UNASSIGNED};
@@ -128,8 +128,12 @@ fn of_region(shown: &ResultSnapshot, id: RegionId) -> Option<Inspection> {
     );
     // Without a highlight line the other pixels are no highlights.
     let others = if region.surface.is_some() { "highlight or clipped" } else { "clipped or bloomed" };
+    // The first warning of a region that the model does not fit says why.
+    let why =
+        grouped_sentences(&region.warnings).into_iter().next().filter(|_| is_judged && !region.model_fits());
+    let why = why.map_or_else(String::new, |why| format!("{why}. "));
     let sentence = format!(
-        "{}, {} of them matte and {} {others}; {angle}; confidence {:.2}",
+        "{why}{}, {} of them matte and {} {others}; {angle}; confidence {:.2}",
         counted(region.pixels, "pixel"),
         grouped(region.matte_pixels),
         grouped(region.highlight_pixels),
