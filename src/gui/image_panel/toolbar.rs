@@ -58,7 +58,19 @@ pub fn row(
         zoom_controls(ui, settings, zoom);
         display_menu(ui, palette, settings);
         lock_button(ui, palette, settings);
+        export_button(ui, state, actions);
     });
+}
+
+/// Shows the button that opens the dialog of exports.
+fn export_button(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    let keys = keys_of(ui.ctx(), Action::Export);
+    let tip = format!("Writes the photograph without highlights, images, tables or figures ({keys}).");
+    let button = ui.add_enabled(state.shown().is_some(), Button::new("Export\u{2026}"));
+    button.widget_info(|| WidgetInfo::labeled(Role::Button, button.enabled(), "Open Export\u{2026}"));
+    if button.on_hover_text(tip).clicked() {
+        actions.push(Action::Export);
+    }
 }
 
 /// Shows the button that locks the readout.

@@ -36,6 +36,7 @@ const OTHER_NAMES: &[(&str, &str)] = &[
     ("Mark its pixels", "Edit: Mark the pixels of the selected region"),
     ("Next change of the selected region", "Decisions: The next change of what is selected"),
     ("Next breakpoint", "Decisions: The next breakpoint"),
+    ("Open Export\u{2026}", "File: Export"),
     ("Own color", "Plane: Color by own color"),
     ("Pause", "Decisions: Play, or rest"),
     ("Plane: lasso", "Plane: Lasso"),
