@@ -62,6 +62,7 @@ fn split_from(detail: &Detail, working: &WorkingSplit) -> Intrinsic {
     let explained_mask = explained_mask(detail, working);
     let local = LocalWorkingSplit {
         local: found.local.as_ref(),
+        replaced: found.replaced.as_ref(),
         body: &working.intrinsic.body,
         origin: found.origin,
     };

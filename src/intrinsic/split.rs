@@ -4,7 +4,7 @@ use super::Intrinsic;
 use super::ambient::ambient;
 use super::border_edges::reject_regions_with_new_edges;
 use super::border_mixtures::limit_surface_at_borders;
-use super::explained_mask::explained_mask;
+use super::explained_mask::{Explained, explained_mask};
 use super::far_colors::remove_far_colors;
 use super::finish::Finish;
 use super::images::Images;
@@ -60,6 +60,8 @@ pub(super) struct Found {
     pub(super) plans: Vec<RegionPlan>,
     /// The working pixels that the skewed T of their region explains.
     pub(super) explained_mask: Mask,
+    /// The working pixels in which another color replaces the body reflection of their region; none where there is no such pixel.
+    pub(super) replaced: Option<Mask>,
     /// What the local split found; none where it did not run.
     pub(super) local: Option<LocalSplit>,
     /// The neighbors of each region, by [`RegionId::index`].
@@ -158,6 +160,7 @@ fn split_from<R: Recorder>(
         sigma: input.sigma(),
         plans,
         explained_mask: Mask::default(),
+        replaced: None,
         local: None,
         touching: Vec::new(),
     };
@@ -172,7 +175,8 @@ fn split_from<R: Recorder>(
         recorder.record(limited);
     }
     let model_fits: Vec<bool> = plans.iter().map(RegionPlan::model_fits).collect();
-    found.explained_mask = explained_mask(input, regions, members, &model_fits, &images);
+    let Explained { mask, replaced } = explained_mask(input, regions, members, &model_fits, &images);
+    (found.explained_mask, found.replaced) = (mask, replaced);
     remove_far_colors(input, &regions.labels, plans, &mut found.explained_mask);
     let explained_mask = &found.explained_mask;
     let local_input = LocalInput {
@@ -181,6 +185,7 @@ fn split_from<R: Recorder>(
         light: regions.light,
         lamps: lamps.as_ref(),
         explained_mask,
+        replaced: found.replaced.as_ref(),
         observations,
         regions: local_regions,
     };

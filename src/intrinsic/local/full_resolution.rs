@@ -25,6 +25,8 @@ use rayon::prelude::*;
 pub struct LocalWorkingSplit<'a> {
     /// What the local split found; none where it did not run.
     pub local: Option<&'a LocalSplit>,
+    /// The working pixels in which another color replaces the body reflection of their region; none where there is no such pixel.
+    pub replaced: Option<&'a Mask>,
     /// Body reflection of the working pixels with the ambient light, counts.
     pub body: &'a Raster<[f32; 3]>,
     /// The ambient light, counts.
@@ -42,7 +44,8 @@ pub fn split_locally_at_full_resolution(
     is_split: impl Fn(usize) -> bool + Sync,
     images: &mut Images,
 ) -> Option<Raster<f32>> {
-    let unexplained = undo_unexplained(&detail.input, explained_mask, is_split, images);
+    let keeps_color = |pixel: usize| working.replaced.is_some_and(|mask| mask[detail.blocks.block_of(pixel)]);
+    let unexplained = undo_unexplained(&detail.input, explained_mask, is_split, keeps_color, images);
     let local = working.local?;
     let (width, height) = (unexplained.width(), unexplained.height());
     let mut confidence = Raster::filled(width, height, 0.0);

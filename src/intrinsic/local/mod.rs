@@ -69,6 +69,8 @@ pub struct LocalInput<'a> {
     pub lamps: Option<&'a Lamps>,
     /// The pixels that the skewed T of their region explains.
     pub explained_mask: &'a Mask,
+    /// The pixels in which another color replaces the body reflection of their region; none where there is no such pixel.
+    pub replaced: Option<&'a Mask>,
     /// The observations in a window around all lit pixels, where they were made before.
     pub observations: Option<Observations<'a>>,
     /// The regions.
@@ -100,7 +102,8 @@ pub fn split_locally<R: Recorder>(
     images: &mut Images,
     recorder: &mut R,
 ) -> Option<LocalSplit> {
-    let unexplained = undo_unexplained(local.input, local.explained_mask, |_| true, images);
+    let keeps_color = |pixel: usize| local.replaced.is_some_and(|mask| mask[pixel]);
+    let unexplained = undo_unexplained(local.input, local.explained_mask, |_| true, keeps_color, images);
     let mut trace_writer = LocalTraceWriter::new(recorder, *origin);
     let found = split_unexplained(local, &unexplained, images, &mut trace_writer);
     trace_writer.finish(unexplained);
@@ -217,11 +220,12 @@ fn weights(
 }
 
 /// Resets pixels that no region explains to body = input, surface = 0, noise = 0. `is_split`: whether a pixel of a region was split
-/// before. Returns the lit pixels among them, with the lit pixels that are in no region.
+/// before. Returns the lit pixels among them that do not keep their color (`keeps_color`), with the lit pixels that are in no region.
 fn undo_unexplained(
     input: &AnalysisInput,
     explained_mask: &Mask,
     is_split: impl Fn(usize) -> bool + Sync,
+    keeps_color: impl Fn(usize) -> bool + Sync,
     images: &mut Images,
 ) -> Mask {
     let (width, height) = (explained_mask.width(), explained_mask.height());
@@ -239,7 +243,7 @@ fn undo_unexplained(
             if explained_mask[pixel] {
                 continue;
             }
-            unexplained[x] = !input.masks.dark(pixel);
+            unexplained[x] = !input.masks.dark(pixel) && !keeps_color(pixel);
             if kinds[x] == PixelKind::Unassigned || !is_split(pixel) {
                 continue;
             }

@@ -4,6 +4,7 @@ use crate::intrinsic::split;
 use crate::params::{Params, Refine, UsedParams};
 use crate::photo::{LinearImage, MaskLimits, Masks};
 use crate::raster::LabelMap;
+use crate::segment::testing::Drawing;
 use crate::segment::{FinalRegions, LightBasis};
 use crate::trace::NoopRecorder;
 use proptest::prelude::*;
@@ -130,6 +131,23 @@ fn no_surface_reflection_is_taken_beside_clipped_pixels_that_are_not_filled() {
     );
     assert!(surface(60) < 1e-3, "beside the clipped pixels: {}", surface(60));
     assert!(surface(70) < 1e-3, "the clipped pixels are not filled");
+}
+
+#[test]
+fn a_pixel_that_keeps_its_color_is_not_split_locally() {
+    let drawing = Drawing::new(&["mm"], |_| Vec3::repeat(100.0));
+    let input = drawing.input();
+    let mut images = Images {
+        body: Raster::filled(2, 1, [60.0; 3]),
+        surface: Raster::filled(2, 1, [40.0; 3]),
+        noise: Raster::filled(2, 1, 1.0),
+        kinds: Raster::filled(2, 1, PixelKind::Highlight),
+    };
+    let explained = Mask::filled(2, 1, false);
+    let unexplained = undo_unexplained(&input, &explained, |_| true, |pixel| pixel == 1, &mut images);
+    assert_eq!(unexplained.as_slice(), [true, false]);
+    assert_eq!(images.body.as_slice(), [[100.0; 3]; 2]);
+    assert_eq!(images.surface.as_slice(), [[0.0; 3]; 2]);
 }
 
 #[test]
