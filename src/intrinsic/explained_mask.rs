@@ -11,6 +11,7 @@
 //! a wall, the plane leaves black. The pixels of such a highlight keep their color.
 
 use super::images::Images;
+use crate::color::Moments;
 use crate::raster::{Border, ComponentSearch, Connectivity, LabelMap, Mask, Raster, RegionId};
 use crate::segment::{AnalysisInput, FinalRegions, Members, parts};
 use crate::trace::PixelKind;
@@ -81,11 +82,11 @@ pub fn explained_mask(
         },
     );
     let is_bright = |pixel: usize| is_bright(input, kinds, pixel);
-    remove_components(labels, &mut mask, is_bright, |explained, highlight| {
-        lacks_body(input, labels, kinds, explained, highlight)
-    });
     let mut replaced = None;
     remove_components(labels, &mut mask, is_bright, |explained, highlight| {
+        if lacks_body(input, labels, kinds, explained, highlight) {
+            return true;
+        }
         let is_weak = has_weak_body(input, labels, images, explained, highlight);
         if is_weak {
             let replaced = replaced.get_or_insert_with(|| labels.map(|_| false));
@@ -194,40 +195,22 @@ fn has_weak_body(
     if highlight.len() < least || !is_clipped_highlight(input, highlight) {
         return false;
     }
-    let total = |color: [f32; 3]| color.iter().sum::<f32>();
-    let surface = |pixel: usize| total(images.surface[pixel]);
+    let surface = |pixel: usize| images.surface[pixel].iter().sum::<f32>();
     let least_surface = CORE * highlight.iter().map(|&pixel| surface(pixel)).fold(0.0, f32::max);
-    let (mut core, mut beside) = (Mean::default(), Mean::default());
+    let (mut core, mut beside) = (Moments::default(), Moments::default());
     for &pixel in highlight {
         if surface(pixel) >= least_surface {
-            core.add(total(images.body[pixel]));
+            core.add(images.body[pixel]);
         }
         labels.for_each_neighbor(pixel, |near| {
             let is_own = explained[near] && labels[near] == labels[pixel];
             if is_own && !is_bright(input, &images.kinds, near) && !input.masks.dark(near) {
-                beside.add(total(images.body[near]));
+                beside.add(images.body[near]);
             }
         });
     }
-    beside.count > 0 && core.value() < LEAST_CORE_BODY * beside.value()
-}
-
-/// The mean of values that are added one by one.
-#[derive(Default)]
-struct Mean {
-    sum: f64,
-    count: usize,
-}
-
-impl Mean {
-    fn add(&mut self, value: f32) {
-        self.sum += f64::from(value);
-        self.count += 1;
-    }
-
-    fn value(&self) -> f64 {
-        self.sum / self.count.max(1) as f64
-    }
+    let beside = beside.mean().sum();
+    beside > 0.0 && core.mean().sum() < LEAST_CORE_BODY * beside
 }
 
 #[cfg(test)]

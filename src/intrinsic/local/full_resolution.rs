@@ -44,8 +44,7 @@ pub fn split_locally_at_full_resolution(
     is_split: impl Fn(usize) -> bool + Sync,
     images: &mut Images,
 ) -> Option<Raster<f32>> {
-    let keeps_color = |pixel: usize| working.replaced.is_some_and(|mask| mask[detail.blocks.block_of(pixel)]);
-    let unexplained = undo_unexplained(&detail.input, explained_mask, is_split, keeps_color, images);
+    let unexplained = undo_unexplained(&detail.input, explained_mask, is_split, images);
     let local = working.local?;
     let (width, height) = (unexplained.width(), unexplained.height());
     let mut confidence = Raster::filled(width, height, 0.0);
@@ -65,6 +64,9 @@ pub fn split_locally_at_full_resolution(
         let nearest_rows = nearest_of(y, blocks.side(), blocks.rows());
         for column in 0..blocks.columns() {
             let working_pixel = (y / blocks.side()) * blocks.columns() + column;
+            if working.replaced.is_some_and(|replaced| replaced[working_pixel]) {
+                continue;
+            }
             let is_near_amount = by_working_picture.near_amount[working_pixel];
             for x in blocks.pixel_columns(column) {
                 let pixel = y * width + x;

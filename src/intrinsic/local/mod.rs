@@ -102,12 +102,19 @@ pub fn split_locally<R: Recorder>(
     images: &mut Images,
     recorder: &mut R,
 ) -> Option<LocalSplit> {
-    let keeps_color = |pixel: usize| local.replaced.is_some_and(|mask| mask[pixel]);
-    let unexplained = undo_unexplained(local.input, local.explained_mask, |_| true, keeps_color, images);
-    let mut trace_writer = LocalTraceWriter::new(recorder, *origin);
-    let found = split_unexplained(local, &unexplained, images, &mut trace_writer);
-    trace_writer.finish(unexplained);
+    let unexplained = undo_unexplained(local.input, local.explained_mask, |_| true, images);
+    let kept = local.replaced.map(|replaced| without(&unexplained, replaced));
+    let mut trace_writer = LocalTraceWriter::new(recorder, *origin, &unexplained);
+    let found = split_unexplained(local, kept.as_ref().unwrap_or(&unexplained), images, &mut trace_writer);
+    trace_writer.finish();
     found
+}
+
+/// The pixels of `mask` that are not in `removed`.
+fn without(mask: &Mask, removed: &Mask) -> Mask {
+    let mut rest = mask.clone();
+    rest.as_mut_slice().iter_mut().zip(removed.as_slice()).for_each(|(rest, removed)| *rest &= !removed);
+    rest
 }
 
 /// Fewest unexplained pixels for which the local split begins, in a picture with `lit` lit pixels.
@@ -115,7 +122,7 @@ fn least_pixels(lit: usize) -> usize {
     LEAST_PIXELS.max((LEAST_SHARE * lit as f64).ceil() as usize)
 }
 
-/// Splits the lit pixels that no region explains. Returns what [`split_locally`] returns.
+/// Splits the lit pixels that no region explains and no other color replaces. Returns what [`split_locally`] returns.
 fn split_unexplained<R: Recorder>(
     LocalInput { input: original, restored, light: findings, lamps, observations, regions, .. }: &LocalInput,
     unexplained: &Mask,
@@ -141,7 +148,7 @@ fn split_unexplained<R: Recorder>(
     trace_writer.began(input, &limits, start, pixels, lit, findings);
     let Observations { map, evidence, .. } = observed?;
     let judged = evidence.as_ref().map(|evidence| (evidence, evidence.picture_odds(map, unexplained)));
-    trace_writer.judged(input, map, judged, unexplained, *restored);
+    trace_writer.judged(input, map, judged, *restored);
     if input.refine.belief {
         let tested = plausibility::test(input, findings);
         let is_plausible = tested.plausible();
@@ -220,12 +227,11 @@ fn weights(
 }
 
 /// Resets pixels that no region explains to body = input, surface = 0, noise = 0. `is_split`: whether a pixel of a region was split
-/// before. Returns the lit pixels among them that do not keep their color (`keeps_color`), with the lit pixels that are in no region.
+/// before. Returns the lit pixels among them, with the lit pixels that are in no region.
 fn undo_unexplained(
     input: &AnalysisInput,
     explained_mask: &Mask,
     is_split: impl Fn(usize) -> bool + Sync,
-    keeps_color: impl Fn(usize) -> bool + Sync,
     images: &mut Images,
 ) -> Mask {
     let (width, height) = (explained_mask.width(), explained_mask.height());
@@ -243,7 +249,7 @@ fn undo_unexplained(
             if explained_mask[pixel] {
                 continue;
             }
-            unexplained[x] = !input.masks.dark(pixel) && !keeps_color(pixel);
+            unexplained[x] = !input.masks.dark(pixel);
             if kinds[x] == PixelKind::Unassigned || !is_split(pixel) {
                 continue;
             }

@@ -134,20 +134,42 @@ fn no_surface_reflection_is_taken_beside_clipped_pixels_that_are_not_filled() {
 }
 
 #[test]
-fn a_pixel_that_keeps_its_color_is_not_split_locally() {
-    let drawing = Drawing::new(&["mm"], |_| Vec3::repeat(100.0));
+fn pixels_in_which_another_color_replaces_the_body_keep_their_color() {
+    let drawing = Drawing::by_place(SIDE_PX, |x, y| slope(x, y) + highlight(x, y, 120.0));
     let input = drawing.input();
-    let mut images = Images {
-        body: Raster::filled(2, 1, [60.0; 3]),
-        surface: Raster::filled(2, 1, [40.0; 3]),
-        noise: Raster::filled(2, 1, 1.0),
-        kinds: Raster::filled(2, 1, PixelKind::Highlight),
+    let findings = LightFindings {
+        direction: Some(light().into()),
+        basis: LightBasis::Votes,
+        share: 0.1,
+        ..LightFindings::default()
     };
-    let explained = Mask::filled(2, 1, false);
-    let unexplained = undo_unexplained(&input, &explained, |_| true, |pixel| pixel == 1, &mut images);
-    assert_eq!(unexplained.as_slice(), [true, false]);
-    assert_eq!(images.body.as_slice(), [[100.0; 3]; 2]);
-    assert_eq!(images.surface.as_slice(), [[0.0; 3]; 2]);
+    let labels = LabelMap::filled(SIDE_PX, SIDE_PX, 0);
+    let members = crate::segment::Members::of(&labels, 0);
+    let lamps = Lamps::one(&light()).unwrap();
+    let explained = Mask::filled(SIDE_PX, SIDE_PX, false);
+    let mut images = Images {
+        body: input.pixels.clone(),
+        surface: Raster::filled(SIDE_PX, SIDE_PX, [0.0; 3]),
+        noise: Raster::filled(SIDE_PX, SIDE_PX, 0.0),
+        kinds: Raster::filled(SIDE_PX, SIDE_PX, PixelKind::Unassigned),
+    };
+    let replaced =
+        Mask::from_vec(SIDE_PX, SIDE_PX, (0..SIDE_PX * SIDE_PX).map(|pixel| pixel % SIDE_PX > 48).collect());
+    let local = LocalInput {
+        input: &input,
+        restored: None,
+        light: findings,
+        lamps: Some(&lamps),
+        explained_mask: &explained,
+        replaced: replaced.as_ref(),
+        observations: None,
+        regions: Regions { labels: &labels, members: &members, matte: &[] },
+    };
+    split_locally(&local, &[0.0; 3], &mut images, &mut NoopRecorder).unwrap();
+    let surface = |x: usize| images.surface[40 * SIDE_PX + x].iter().sum::<f32>();
+    assert!(surface(46) > 60.0, "the left half is split: {}", surface(46));
+    assert!(images.surface.row(40)[49..].iter().flatten().all(|band| *band == 0.0));
+    assert_eq!(images.body.row(40)[49..], input.pixels.row(40)[49..]);
 }
 
 #[test]

@@ -18,15 +18,17 @@ pub struct LocalTraceWriter<'a, R> {
     recorder: &'a mut R,
     /// The ambient light that was subtracted, counts.
     origin: [f64; 3],
+    /// The lit pixels that no region explains.
+    unexplained: &'a Mask,
     points: Option<LocalPoints>,
     /// Number of blobs that have a number.
     numbered: u16,
 }
 
 impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
-    /// A writer to `recorder`. `origin`: the ambient light that was subtracted, counts.
-    pub fn new(recorder: &'a mut R, origin: [f64; 3]) -> Self {
-        Self { recorder, origin, points: None, numbered: 0 }
+    /// A writer to `recorder`. `origin`: the ambient light that was subtracted, counts. `unexplained`: the lit pixels that no region explains.
+    pub fn new(recorder: &'a mut R, origin: [f64; 3], unexplained: &'a Mask) -> Self {
+        Self { recorder, origin, unexplained, points: None, numbered: 0 }
     }
 
     fn record(&mut self, decision: impl Into<Event>) {
@@ -70,7 +72,6 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
         input: &AnalysisInput,
         map: &DesaturationMap,
         evidence: Option<(&Evidence, PictureOddsFound)>,
-        unexplained: &Mask,
         restored: Option<&HueRestored>,
     ) {
         if !R::KEEPS {
@@ -78,7 +79,7 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
         }
         let restored = restored.map_or(Vec::new(), |restored| restored.bands.clone());
         let terms = evidence.map(|(terms, _)| terms);
-        let of = points(input, map, terms, unexplained);
+        let of = points(input, map, terms, self.unexplained);
         self.points = Some(LocalPoints { roi: map.roi, of, restored });
         if let Some((_, picture)) = evidence {
             self.record(picture);
@@ -132,10 +133,11 @@ impl<'a, R: Recorder> LocalTraceWriter<'a, R> {
         self.record(RepairTried { blob: self.numbered, ..tried });
     }
 
-    /// Records what the pixels were judged by; of a split that did not begin, which pixels are `unexplained`.
-    pub fn finish(self, unexplained: Mask) {
+    /// Records what the pixels were judged by; of a split that did not begin, which pixels are unexplained.
+    pub fn finish(self) {
         if R::KEEPS {
-            self.recorder.local(self.points.map_or(LocalRecord::Outside(unexplained), LocalRecord::Points));
+            let outside = || LocalRecord::Outside(self.unexplained.clone());
+            self.recorder.local(self.points.map_or_else(outside, LocalRecord::Points));
         }
     }
 }
