@@ -110,8 +110,8 @@ fn evidence(story: &LocalStory, terms: &HighlightTerms) -> String {
 pub(super) fn unfit(region: &str, story: &Unfit) -> String {
     let why = if story.model_fits {
         format!(
-            "{region} holds, but not here: this part of it is hardly anything but highlight, or clipped and surrounded by \
-             other regions"
+            "{region} holds, but not here: this part of it is hardly anything but highlight, clipped and surrounded by \
+             other regions, or a highlight under which the body is much weaker than beside it"
         )
     } else {
         let failed = failed_limits(&story.fit, &story.limits, story.has_plane);
