@@ -11,6 +11,9 @@
 //! the darkest ring that the second has, and that of the fall from the first ring to the second that follows from the second to the third. R is twice the
 //! number of the area's pixels divided by that of the first ring, which for a disk is its radius.
 //!
+//! Where body reflection clips one band alone, the edge of the area is not that of the core, and may be as abrupt as the body colors are. White areas, whose smallest
+//! band nearly clips on average, are held to a higher limit therefore, and areas in most pixels of which all bands clip to a still higher one.
+//!
 //! The highlight of a facet ends at the edges of the facet, and a highlight may be hidden in part by another object. Such areas are few and small, so that areas
 //! with abrupt edges are objects only where they are a good part of what clips, and of the picture. In a picture with objects, an area of any size whose edge is
 //! as narrow as theirs is one too.
@@ -39,6 +42,14 @@ const LEAST_RISE: f64 = 0.02;
 const MOST_LEFT_OF_AN_EDGE: f64 = 0.25;
 /// The same of an area of any radius in a picture with objects.
 const MOST_LEFT_BESIDE_OBJECTS: f64 = 0.2;
+/// Least mean of the smallest band of a white area, as a share of the clip threshold.
+const LEAST_OF_WHITE: f64 = 0.7;
+/// Most that the edge of a white area leaves, as a share of what the brightest highlight leaves.
+const MOST_LEFT_OF_WHITE: f64 = 0.6;
+/// Least share of the pixels of a saturated area in which all bands clip.
+const LEAST_SATURATED: f64 = 0.8;
+/// Most that the edge of a saturated area leaves, as a share of what the brightest highlight leaves.
+const MOST_LEFT_OF_SATURATED: f64 = 0.8;
 /// 2 ln P for the brightest highlight, P = 20.
 const FALL: f64 = 6.0;
 /// Least share of the clipped pixels of all judged areas that lie in areas with abrupt edges, if these are objects.
@@ -81,7 +92,7 @@ impl ClippedArea {
 /// The clipped areas of a picture that are large and bright enough to be judged, in the order of their first pixels. `clip_threshold`: value
 /// from which on a band is clipped, counts.
 pub fn clipped_areas(image: &LinearImage, masks: &Masks, clip_threshold: f64) -> Vec<ClippedArea> {
-    let Some(mut found) = Areas::new(image, masks) else { return Vec::new() };
+    let Some(mut found) = Areas::new(image, masks, clip_threshold) else { return Vec::new() };
     found.find_rings(image, masks);
     let mut judged_of = vec![None; found.profiles.len()];
     let mut judged = Vec::new();
@@ -144,6 +155,8 @@ impl Sum {
 #[derive(Clone, Copy, Default)]
 struct Profile {
     area: Sum,
+    /// Number of the area's pixels in which all bands clip.
+    saturated: usize,
     rings: [Sum; RINGS],
 }
 
@@ -166,10 +179,21 @@ impl Profile {
         let fall = |from: f64, to: f64| (from - to).max(LEAST_RISE * clip_threshold);
         let of_rise = (second.mean() - foot) / fall(first.mean(), foot);
         let of_fall = (second.mean() - third.mean()) / fall(first.mean(), second.mean());
-        let left_of_highlight = (-FALL / radius_px).exp();
         let tells = radius_px >= LEAST_TELLING_RADIUS_PX;
-        let most_left = if tells { MOST_LEFT_OF_AN_EDGE.min(left_of_highlight) } else { 0.0 };
+        let most_left = if tells { self.most_left((-FALL / radius_px).exp(), clip_threshold) } else { 0.0 };
         Some((0.5 * (of_rise + of_fall), most_left))
+    }
+
+    /// The share below which the edge of the area is abrupt. `left_of_highlight`: the share that the brightest highlight of this radius leaves.
+    fn most_left(&self, left_of_highlight: f64, clip_threshold: f64) -> f64 {
+        let share = if self.saturated as f64 >= LEAST_SATURATED * self.area.pixels as f64 {
+            MOST_LEFT_OF_SATURATED
+        } else if self.area.mean() >= LEAST_OF_WHITE * clip_threshold {
+            MOST_LEFT_OF_WHITE
+        } else {
+            0.0
+        };
+        MOST_LEFT_OF_AN_EDGE.min(left_of_highlight).max(share * left_of_highlight)
     }
 }
 
@@ -185,7 +209,7 @@ struct Areas {
 
 impl Areas {
     /// The clipped areas without their rings; none where nothing is clipped.
-    fn new(image: &LinearImage, masks: &Masks) -> Option<Self> {
+    fn new(image: &LinearImage, masks: &Masks, clip_threshold: f64) -> Option<Self> {
         let (width, height) = masks.shape();
         let clipped = |pixel: usize| masks.clipped(pixel) && masks.has_value(pixel);
         let first = (0..width * height).find(|&pixel| clipped(pixel))?;
@@ -197,7 +221,9 @@ impl Areas {
             let mut profile = Profile::default();
             for &pixel in area {
                 owners[pixel] = profiles.len() as u32 + 1;
-                profile.area.add(image.pixels[pixel]);
+                let color = image.pixels[pixel];
+                profile.area.add(color);
+                profile.saturated += usize::from(color.iter().all(|&band| f64::from(band) >= clip_threshold));
             }
             profiles.push(profile);
         }
@@ -291,6 +317,31 @@ mod tests {
             assert!((found[0].clipped as f64 / expected - 1.0).abs() < 0.2, "{} pixels", found[0].clipped);
             assert!(found[0].pixels.is_sorted() && found[0].pixels.len() > found[0].clipped);
         }
+    }
+
+    #[test]
+    fn a_large_white_area_is_an_object_with_a_wider_edge_than_a_colored_one() {
+        let blurred = |color: [f64; 3]| {
+            move |x: f64, y: f64| {
+                let inside = 30.0 - (x - 60.0).hypot(y - 60.0);
+                let share = 1.0 / (1.0 + (-inside / 1.2).exp());
+                std::array::from_fn(|band| share * color[band] + (1.0 - share) * BODY[band])
+            }
+        };
+        let white = areas(blurred([400.0; 3]));
+        assert_eq!(white.len(), 1);
+        assert!(white[0].left > MOST_LEFT_OF_AN_EDGE, "{}", white[0].left);
+        assert_eq!(
+            white[0].verdict,
+            ClippedAreaVerdict::Object,
+            "{} of {}",
+            white[0].left,
+            white[0].most_left
+        );
+        let red = areas(blurred([400.0, 140.0, 140.0]));
+        assert_eq!(red.len(), 1);
+        assert!(red[0].most_left <= MOST_LEFT_OF_AN_EDGE, "{}", red[0].most_left);
+        assert_eq!(red[0].verdict, ClippedAreaVerdict::MayBeHighlight, "{}", red[0].left);
     }
 
     #[test]
