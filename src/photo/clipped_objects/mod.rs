@@ -7,12 +7,15 @@
 //! surface reflection is left one pixel farther out. An edge is as narrow as the blur of lens and file, however large the area is.
 //!
 //! The clipped areas of the working picture are judged by their smallest band, in which surface reflection differs most from colored body reflection: by
-//! its means over the rings of 1 px around the area. What is left one pixel farther out is the mean of two shares: that of the rise of the first ring above
-//! the darkest ring that the second has, and that of the fall from the first ring to the second that follows from the second to the third. R is twice the
-//! number of the area's pixels divided by that of the first ring, which for a disk is its radius.
+//! its means over the area's outermost pixels and over the rings of 1 px around the area. What is left one pixel farther out is the mean of two shares: that of the
+//! rise of one ring above the darkest ring that the next ring has, and that of the fall from one ring to the next that follows from the next to the one after it.
+//! It is measured from the outermost pixels to the first ring and from the first ring to the second, and the smaller share counts: where pixels were averaged, a
+//! pixel on the edge is clipped, and the edge lies within the area. R is twice the number of the area's pixels divided by that of the first ring, which for a disk is
+//! its radius.
 //!
 //! Where body reflection clips one band alone, the edge of the area is not that of the core, and may be as abrupt as the body colors are. White areas, whose smallest
-//! band nearly clips on average, are held to a higher limit therefore, and areas in most pixels of which all bands clip to a still higher one.
+//! band nearly clips on average, are held to a higher limit therefore, and areas in most pixels of which all bands clip to a still higher one. Such areas are objects
+//! also where they are small but several: letters, windows.
 //!
 //! The highlight of a facet ends at the edges of the facet, and a highlight may be hidden in part by another object. Such areas are few and small, so that areas
 //! with abrupt edges are objects only where they are a good part of what clips, and of the picture. In a picture with objects, an area of any size whose edge is
@@ -45,11 +48,17 @@ const MOST_LEFT_BESIDE_OBJECTS: f64 = 0.2;
 /// Least mean of the smallest band of a white area, as a share of the clip threshold.
 const LEAST_OF_WHITE: f64 = 0.7;
 /// Most that the edge of a white area leaves, as a share of what the brightest highlight leaves.
-const MOST_LEFT_OF_WHITE: f64 = 0.6;
+const MOST_LEFT_OF_WHITE: f64 = 0.55;
 /// Least share of the pixels of a saturated area in which all bands clip.
 const LEAST_SATURATED: f64 = 0.8;
+/// Least number of pixels of a saturated area that tells of objects whatever its radius is.
+const LEAST_PIXELS_OF_SATURATED: usize = 25;
+/// Number of saturated areas with abrupt edges that are objects, however few pixels they have: letters, windows. A facet is one area.
+const LEAST_SATURATED_AREAS: usize = 3;
 /// Most that the edge of a saturated area leaves, as a share of what the brightest highlight leaves.
-const MOST_LEFT_OF_SATURATED: f64 = 0.8;
+const MOST_LEFT_OF_SATURATED: f64 = 0.7;
+/// The same of a saturated area of any radius, as a share of the surface reflection.
+const MOST_LEFT_OF_SMALL_SATURATED: f64 = 0.1;
 /// 2 ln P for the brightest highlight, P = 20.
 const FALL: f64 = 6.0;
 /// Least share of the clipped pixels of all judged areas that lie in areas with abrupt edges, if these are objects.
@@ -95,15 +104,17 @@ pub fn clipped_areas(image: &LinearImage, masks: &Masks, clip_threshold: f64) ->
     let Some(mut found) = Areas::new(image, masks, clip_threshold) else { return Vec::new() };
     found.find_rings(image, masks);
     let mut judged_of = vec![None; found.profiles.len()];
-    let mut judged = Vec::new();
+    let (mut judged, mut saturated) = (Vec::new(), 0);
     for (profile, place) in found.profiles.iter().zip(&mut judged_of) {
         let Some((left, most_left)) = profile.left(clip_threshold) else { continue };
         *place = Some(judged.len());
         let verdict = ClippedAreaVerdict::MayBeHighlight;
         let clipped = profile.area.pixels;
-        judged.push(ClippedArea { pixels: Vec::new(), clipped, left, most_left, verdict });
+        let area = ClippedArea { pixels: Vec::new(), clipped, left, most_left, verdict };
+        saturated += usize::from(area.is_abrupt() && profile.is_saturated());
+        judged.push(area);
     }
-    judge(&mut judged, (0..found.owners.len()).filter(|&pixel| masks.has_value(pixel)).count());
+    judge(&mut judged, saturated, (0..found.owners.len()).filter(|&pixel| masks.has_value(pixel)).count());
     for pixel in 0..found.owners.len() {
         let owner = (found.owners[pixel] as usize).checked_sub(1);
         let place = owner.and_then(|area| judged_of[area]);
@@ -114,13 +125,13 @@ pub fn clipped_areas(image: &LinearImage, masks: &Masks, clip_threshold: f64) ->
     judged
 }
 
-/// Sets the verdicts on the areas of a picture of `pixels` pixels.
-fn judge(areas: &mut [ClippedArea], pixels: usize) {
+/// Sets the verdicts on the areas of a picture of `pixels` pixels. `saturated`: how many saturated areas have abrupt edges.
+fn judge(areas: &mut [ClippedArea], saturated: usize, pixels: usize) {
     let clipped = |area: &ClippedArea| area.clipped as f64;
     let abrupt: f64 = areas.iter().filter(|area| area.is_abrupt()).map(clipped).sum();
     let all: f64 = areas.iter().map(clipped).sum();
-    let are_objects =
-        abrupt > 0.0 && abrupt >= LEAST_OF_CLIPPED * all && abrupt >= LEAST_OF_PICTURE * pixels as f64;
+    let are_many = abrupt >= LEAST_OF_CLIPPED * all && abrupt >= LEAST_OF_PICTURE * pixels as f64;
+    let are_objects = abrupt > 0.0 && (are_many || saturated >= LEAST_SATURATED_AREAS);
     for area in areas {
         if are_objects {
             area.most_left = area.most_left.max(MOST_LEFT_BESIDE_OBJECTS);
@@ -157,6 +168,8 @@ struct Profile {
     area: Sum,
     /// Number of the area's pixels in which all bands clip.
     saturated: usize,
+    /// The area's pixels next to unclipped ones.
+    outermost: Sum,
     rings: [Sum; RINGS],
 }
 
@@ -177,22 +190,31 @@ impl Profile {
         let farther = self.rings.iter().skip(2).filter(|ring| known(ring)).map(|ring| ring.mean());
         let foot = farther.fold(f64::INFINITY, f64::min);
         let fall = |from: f64, to: f64| (from - to).max(LEAST_RISE * clip_threshold);
-        let of_rise = (second.mean() - foot) / fall(first.mean(), foot);
-        let of_fall = (second.mean() - third.mean()) / fall(first.mean(), second.mean());
-        let tells = radius_px >= LEAST_TELLING_RADIUS_PX;
-        let most_left = if tells { self.most_left((-FALL / radius_px).exp(), clip_threshold) } else { 0.0 };
-        Some((0.5 * (of_rise + of_fall), most_left))
+        let left = |inner: Sum, ring: Sum, outer: Sum| {
+            let (inner, ring, outer) = (inner.mean(), ring.mean(), outer.mean());
+            0.5 * ((ring - foot) / fall(inner, foot) + (ring - outer) / fall(inner, ring))
+        };
+        let left = left(self.outermost, first, second).min(left(first, second, third));
+        Some((left, self.most_left(radius_px, clip_threshold)))
     }
 
-    /// The share below which the edge of the area is abrupt. `left_of_highlight`: the share that the brightest highlight of this radius leaves.
-    fn most_left(&self, left_of_highlight: f64, clip_threshold: f64) -> f64 {
-        let share = if self.saturated as f64 >= LEAST_SATURATED * self.area.pixels as f64 {
-            MOST_LEFT_OF_SATURATED
-        } else if self.area.mean() >= LEAST_OF_WHITE * clip_threshold {
-            MOST_LEFT_OF_WHITE
-        } else {
-            0.0
-        };
+    /// Whether all bands clip in most pixels of the area, and the area is large enough to tell of objects.
+    fn is_saturated(&self) -> bool {
+        self.area.pixels >= LEAST_PIXELS_OF_SATURATED
+            && self.saturated as f64 >= LEAST_SATURATED * self.area.pixels as f64
+    }
+
+    /// The share below which the edge of the area of this radius is abrupt.
+    fn most_left(&self, radius_px: f64, clip_threshold: f64) -> f64 {
+        let left_of_highlight = (-FALL / radius_px).exp();
+        if self.is_saturated() {
+            return MOST_LEFT_OF_SMALL_SATURATED.max(MOST_LEFT_OF_SATURATED * left_of_highlight);
+        }
+        if radius_px < LEAST_TELLING_RADIUS_PX {
+            return 0.0;
+        }
+        let is_white = self.area.mean() >= LEAST_OF_WHITE * clip_threshold;
+        let share = if is_white { MOST_LEFT_OF_WHITE } else { 0.0 };
         MOST_LEFT_OF_AN_EDGE.min(left_of_highlight).max(share * left_of_highlight)
     }
 }
@@ -237,11 +259,16 @@ impl Areas {
             let mut next = Vec::new();
             for pixel in ring {
                 let owner = self.owners[pixel];
+                let profile = &mut self.profiles[owner as usize - 1];
+                let is_unclipped = |near: usize| !masks.clipped(near) && masks.has_value(near);
+                if number == 0 && self.owners.around(pixel).any(is_unclipped) {
+                    profile.outermost.add(image.pixels[pixel]);
+                }
                 for near in self.owners.around(pixel) {
-                    if self.owners[near] == 0 && !masks.clipped(near) && masks.has_value(near) {
+                    if self.owners[near] == 0 && is_unclipped(near) {
                         self.owners[near] = owner;
                         self.is_edge[near] = number < EDGE_RINGS;
-                        self.profiles[owner as usize - 1].rings[number].add(image.pixels[near]);
+                        profile.rings[number].add(image.pixels[near]);
                         next.push(near);
                     }
                 }
@@ -252,128 +279,4 @@ impl Areas {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::photo::MaskLimits;
-
-    const LIMITS: MaskLimits = MaskLimits { min_intensity: 5.0, clip_threshold: 250.0, bloom_density: 1 };
-    const SIZE: usize = 120;
-    const BODY: [f64; 3] = [150.0, 60.0, 20.0];
-
-    /// The areas of a picture whose color at a place is `color`, clipped at 255 counts.
-    fn areas(color: impl Fn(f64, f64) -> [f64; 3]) -> Vec<ClippedArea> {
-        let at = |pixel: usize| color((pixel % SIZE) as f64, (pixel / SIZE) as f64);
-        let data = (0..SIZE * SIZE).map(|pixel| at(pixel).map(|value| value.min(255.0) as f32)).collect();
-        let image = LinearImage::new(Raster::from_vec(SIZE, SIZE, data).unwrap(), Some(255.0));
-        clipped_areas(&image, &Masks::new(&image, &LIMITS), LIMITS.clip_threshold)
-    }
-
-    /// Body reflection and a Gaussian lobe of surface reflection with this peak, counts, and standard deviation, pixels.
-    fn lobe(peak: f64, width_px: f64) -> impl Fn(f64, f64) -> [f64; 3] {
-        move |x, y| {
-            let surface =
-                peak * (-((x - 60.0).powi(2) + (y - 60.0).powi(2)) / (2.0 * width_px.powi(2))).exp();
-            BODY.map(|body| body + surface)
-        }
-    }
-
-    /// White of this brightness, counts, in a disk with this radius, pixels, before body reflection. The edge is mixed over `blur_px` to either side.
-    fn disk(white: f64, radius_px: f64, blur_px: f64) -> impl Fn(f64, f64) -> [f64; 3] {
-        move |x, y| {
-            let inside = radius_px - (x - 60.0).hypot(y - 60.0);
-            let share = (0.5 + 0.5 * inside / blur_px).clamp(0.0, 1.0);
-            BODY.map(|body| share * white + (1.0 - share) * body)
-        }
-    }
-
-    #[test]
-    fn a_lobe_of_any_size_may_be_a_highlight() {
-        for (peak, width_px) in [(400.0, 2.5), (400.0, 12.0), (1500.0, 3.0), (3000.0, 8.0)] {
-            let found = areas(lobe(peak, width_px));
-            assert_eq!(found.len(), 1, "peak {peak}, width {width_px}");
-            assert_eq!(
-                found[0].verdict,
-                ClippedAreaVerdict::MayBeHighlight,
-                "{} of {}",
-                found[0].left,
-                found[0].most_left
-            );
-        }
-    }
-
-    #[test]
-    fn a_white_disk_of_any_size_is_an_object() {
-        for (white, radius_px, blur_px) in [(300.0, 6.0, 0.7), (300.0, 30.0, 0.7), (500.0, 12.0, 1.2)] {
-            let found = areas(disk(white, radius_px, blur_px));
-            assert_eq!(found.len(), 1);
-            assert_eq!(
-                found[0].verdict,
-                ClippedAreaVerdict::Object,
-                "{} of {}",
-                found[0].left,
-                found[0].most_left
-            );
-            let expected = std::f64::consts::PI * radius_px.powi(2);
-            assert!((found[0].clipped as f64 / expected - 1.0).abs() < 0.2, "{} pixels", found[0].clipped);
-            assert!(found[0].pixels.is_sorted() && found[0].pixels.len() > found[0].clipped);
-        }
-    }
-
-    #[test]
-    fn a_large_white_area_is_an_object_with_a_wider_edge_than_a_colored_one() {
-        let blurred = |color: [f64; 3]| {
-            move |x: f64, y: f64| {
-                let inside = 30.0 - (x - 60.0).hypot(y - 60.0);
-                let share = 1.0 / (1.0 + (-inside / 1.2).exp());
-                std::array::from_fn(|band| share * color[band] + (1.0 - share) * BODY[band])
-            }
-        };
-        let white = areas(blurred([400.0; 3]));
-        assert_eq!(white.len(), 1);
-        assert!(white[0].left > MOST_LEFT_OF_AN_EDGE, "{}", white[0].left);
-        assert_eq!(
-            white[0].verdict,
-            ClippedAreaVerdict::Object,
-            "{} of {}",
-            white[0].left,
-            white[0].most_left
-        );
-        let red = areas(blurred([400.0, 140.0, 140.0]));
-        assert_eq!(red.len(), 1);
-        assert!(red[0].most_left <= MOST_LEFT_OF_AN_EDGE, "{}", red[0].most_left);
-        assert_eq!(red[0].verdict, ClippedAreaVerdict::MayBeHighlight, "{}", red[0].left);
-    }
-
-    #[test]
-    fn a_small_abrupt_area_beside_large_highlights_is_few() {
-        let (highlight, white) = (lobe(1500.0, 12.0), disk(300.0, 5.0, 0.7));
-        let found =
-            areas(|x, y| if x < 15.0 && y < 15.0 { white(x + 52.0, y + 52.0) } else { highlight(x, y) });
-        let verdicts: Vec<_> = found.iter().map(|area| area.verdict).collect();
-        assert_eq!(verdicts, [ClippedAreaVerdict::Few, ClippedAreaVerdict::MayBeHighlight]);
-    }
-
-    #[test]
-    fn a_narrow_area_beside_an_object_is_one_too() {
-        let white = disk(300.0, 20.0, 0.7);
-        let found = areas(|x, y| if (x - 5.0).abs() < 1.0 { [300.0; 3] } else { white(x, y) });
-        let verdicts: Vec<_> = found.iter().map(|area| area.verdict).collect();
-        assert_eq!(verdicts, [ClippedAreaVerdict::Object; 2]);
-    }
-
-    #[test]
-    fn narrow_areas_alone_tell_nothing_and_areas_of_the_color_around_them_are_not_judged() {
-        let line = |x: f64, _| if (x - 60.0).abs() < 1.0 { [300.0; 3] } else { BODY };
-        assert!(areas(line).iter().all(|area| area.verdict == ClippedAreaVerdict::MayBeHighlight));
-        let red = disk(0.0, 20.0, 0.7);
-        assert_eq!(
-            areas(|x, y| {
-                let [r, g, b] = red(x, y);
-                [if r < 75.0 { 300.0 } else { r }, g + 60.0, b + 20.0]
-            }),
-            []
-        );
-        assert_eq!(areas(|_, _| [300.0; 3]), [], "nothing is around");
-        assert_eq!(areas(|_, _| BODY), []);
-    }
-}
+mod tests;
