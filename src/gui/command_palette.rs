@@ -77,11 +77,12 @@ impl CommandPalette {
         let found: Vec<Entry> =
             entries().into_iter().filter(|entry| matches(&entry.name, &self.query)).collect();
         let [up, down, enter] = [Key::ArrowUp, Key::ArrowDown, Key::Enter]
-            .map(|key| ui.ctx().input_mut(|input| input.consume_key(Modifiers::NONE, key)));
+            .map(|key| ui.ctx().input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key)));
         let last = found.len().saturating_sub(1);
-        self.chosen = (self.chosen + usize::from(down)).saturating_sub(usize::from(up)).min(last);
-        let mut confirmed = found.get(self.chosen).filter(|_| enter).map(|entry| entry.action);
-        let is_moved = up || down;
+        // A slow frame can hold several presses of a key.
+        self.chosen = (self.chosen + down).saturating_sub(up).min(last);
+        let mut confirmed = found.get(self.chosen).filter(|_| enter > 0).map(|entry| entry.action);
+        let is_moved = up + down > 0;
         let window = dialog_room::placed(egui::Window::new("Commands"), ui.ctx(), WIDTH_PT);
         let shown = window.show(ui.ctx(), |ui| {
             self.field(ui);

@@ -80,12 +80,9 @@ fn target(ui: &Ui, response: &egui::Response, index: usize, len: usize) -> Optio
     if !response.has_focus() {
         return None;
     }
-    let is_pressed = |key| ui.input(|input| input.key_pressed(key));
-    if is_pressed(Key::ArrowDown) && index + 1 < len {
-        Some(index + 1)
-    } else if is_pressed(Key::ArrowUp) {
-        index.checked_sub(1)
-    } else {
-        None
-    }
+    // A slow frame can hold several presses of a key.
+    let presses = |key| ui.input(|input| input.num_presses(key));
+    let target =
+        (index + presses(Key::ArrowDown)).saturating_sub(presses(Key::ArrowUp)).min(len.saturating_sub(1));
+    (target != index).then_some(target)
 }

@@ -112,7 +112,10 @@ impl RegionsPanel {
     /// Shows the panel.
     pub fn show(&mut self, ui: &mut Ui, cx: &mut PanelContext) {
         let Some(shown) = cx.state.shown().cloned() else {
-            let text = "Regions appear when a photograph has been analyzed.";
+            let text = match cx.state.preview {
+                Some(_) => "The picture shows a preview. Regions appear when the analysis is finished.",
+                None => "Regions appear when a photograph has been analyzed.",
+            };
             return lacking_result::placeholder(ui, cx, text);
         };
         let state = cx.state;

@@ -54,6 +54,34 @@ fn a_command_is_chosen_by_arrows_or_the_pointer_and_escape_chooses_none() {
 }
 
 #[test]
+fn presses_of_an_arrow_within_one_frame_all_count() {
+    let layer_after = |frames: [usize; 2]| {
+        let mut window = tiny_window();
+        press(&mut window, Modifiers::COMMAND, Key::P);
+        type_text(&mut window, "image layer");
+        for presses in frames {
+            let event = |pressed| Event::Key {
+                key: Key::ArrowDown,
+                physical_key: None,
+                pressed,
+                repeat: false,
+                modifiers: Modifiers::NONE,
+            };
+            for _ in 0..presses {
+                window.input_mut().events.extend([event(true), event(false)]);
+            }
+            window.step();
+        }
+        press(&mut window, Modifiers::NONE, Key::Enter);
+        window.run_steps(2);
+        state(&window).view.image.layer
+    };
+    let (in_two_frames, in_one) = (layer_after([1, 1]), layer_after([2, 0]));
+    assert_eq!(in_one, in_two_frames);
+    assert_ne!(in_one, layer_after([1, 0]));
+}
+
+#[test]
 fn the_context_menu_of_the_picture_is_about_the_pixel_and_its_region() {
     let mut window = tiny_window();
     zoom_in(&mut window);

@@ -5,6 +5,7 @@ use crate::window::{
 };
 use dichroscope::analysis::{Analysis, ContrastFinding, Observer, RunWarning, Session, Stage};
 use dichroscope::app::{Application, Debugger, Edit, Executor, JobCommand, Preview, State, ViewCommand};
+use dichroscope::gui::Pane;
 use dichroscope::params::{Parameter, Params, Setting};
 use dichroscope::photo::EncodingChoice;
 use dichroscope::raster::{Blocks, PixelIndex, Raster};
@@ -239,6 +240,16 @@ fn hovering_a_preview_reads_the_pixel_of_the_photograph() {
         let readout = words(&named(&window, Role::Label, &format!("x {x}, y {y}"))).unwrap();
         assert!(readout.contains(&format!("R {r:.1}, G {g:.1}, B {b:.1}")), "{readout}");
     }
+}
+
+#[test]
+fn the_regions_panel_says_that_the_picture_shows_a_preview() {
+    let mut state_before = state_with_preview();
+    (state_before.newest, state_before.debugger) = (None, Debugger::default());
+    let Some(mut window) = with_state(SIZE, state_before) else { return };
+    window.state_mut().show_alone(Some(Pane::Regions));
+    window.run_steps(3);
+    assert!(says(&window, "The picture shows a preview. Regions appear when the analysis is finished."));
 }
 
 #[test]
