@@ -13,13 +13,12 @@
 //! pixel on the edge is clipped, and the edge lies within the area. R is twice the number of the area's pixels divided by that of the first ring, which for a disk is
 //! its radius.
 //!
-//! Where body reflection clips one band alone, the edge of the area is not that of the core, and may be as abrupt as the body colors are. White areas, whose smallest
-//! band nearly clips on average, are held to a higher limit therefore, and areas in most pixels of which all bands clip to a still higher one. Such areas are objects
-//! also where they are small but several: letters, windows.
+//! Where body reflection clips one band alone, the edge of the area is not that of the core, and may be as abrupt as a border of body colors. The limit of white
+//! areas, whose smallest band nearly clips on average, is higher therefore, and that of saturated areas, in most pixels of which all bands clip, is higher still.
 //!
 //! The highlight of a facet ends at the edges of the facet, and a highlight may be hidden in part by another object. Such areas are few and small, so that areas
-//! with abrupt edges are objects only where they are a good part of what clips, and of the picture. In a picture with objects, an area of any size whose edge is
-//! as narrow as theirs is one too.
+//! with abrupt edges are objects only where they are a good part of what clips, and of the picture, or where several of them are saturated: letters, windows.
+//! In a picture with objects, an area of any size whose edge is as narrow as theirs is one too.
 //! The pixels of an object and of its edge are not analyzed: they keep the colors of the photograph.
 
 use super::{LinearImage, Masks};
