@@ -40,7 +40,7 @@ pub enum Reason {
     OtherObject,
     /// The body reflection of the pixel's region has the light's color, as far as the light is known: gray, white and metal.
     Collinear,
-    /// Every band is clipped.
+    /// Every band is clipped, in a region that holds.
     ClippedAllBands,
     /// The pixel is that of an object that clips, or of its edge, and of no highlight.
     ClippedObject,
@@ -158,15 +158,13 @@ impl ReasonInput<'_> {
         if self.masks.dark(pixel) && region.is_none() {
             return Reason::Shadow;
         }
-        if self.kinds[pixel] == PixelKind::Lost {
-            return Reason::ClippedAllBands;
-        }
         let Some(region) = region else {
             return if self.at_a_border(pixel) { Reason::MixedBoundary } else { Reason::NoMatteLine };
         };
         let of_region = of_region.get(region.index()).copied().unwrap_or_default();
         match of_region {
             Reason::Explained | Reason::Collinear if !self.explained_mask[pixel] => Reason::OtherObject,
+            Reason::Explained if self.kinds[pixel] == PixelKind::Lost => Reason::ClippedAllBands,
             Reason::Explained if self.noise[pixel].abs() > FAR_OFF * self.sigma_of(region) => {
                 if self.at_a_border(pixel) { Reason::MixedBoundary } else { Reason::InterReflection }
             }
@@ -201,7 +199,7 @@ mod tests {
         let limits = MaskLimits { min_intensity: 23.0, clip_threshold: 240.0, bloom_density: 9 };
         let mut kinds = Raster::filled(7, 1, PixelKind::Matte);
         kinds[3] = PixelKind::Lost;
-        let found = ReasonInput {
+        let input = ReasonInput {
             masks: &Masks::new(&image, &limits),
             labels: &LabelMap::from_vec(7, 1, vec![0, 0, 1, 1, 0, 0, 0]).unwrap(),
             explained_mask: &Raster::filled(7, 1, true),
@@ -210,12 +208,13 @@ mod tests {
             regions: &[],
             light: None,
             pixel_sigmas: &[],
-        }
-        .reasons();
+        };
         assert_eq!(
-            found.as_slice(),
+            input.reasons().as_slice(),
             [Shadow, MixedBoundary, Explained, ClippedAllBands, MixedBoundary, NoMatteLine, NoMatteLine]
         );
+        let of_a_part = input.of_pixel(3, &[Reason::PartOfObject]);
+        assert_eq!(of_a_part, Reason::PartOfObject, "the region tells why nothing restores a clipped pixel");
         assert!(Reason::ALL.iter().enumerate().all(|(i, reason)| *reason as usize == i));
     }
 

@@ -37,7 +37,7 @@ pub enum PixelKind {
     Highlight,
     /// The pixel is clipped or bloomed, and its color was restored from the undistorted bands.
     Restored,
-    /// The pixel is clipped in every band: its color can be restored from its surroundings only.
+    /// The pixel is clipped in every band, so that its color can be restored from its surroundings only, or clipped or bloomed in a region that is not split.
     Lost,
 }
 

@@ -21,7 +21,7 @@ const KINDS: [(PixelKind, &str, &str); 4] = [
         "restored",
         "Clipped or bloomed; split by the bands that can be believed (section 6).",
     ),
-    (PixelKind::Lost, "lost", "Clipped in every band: restored from its surroundings alone (section 6)."),
+    (PixelKind::Lost, "lost", "Clipped in every band, or clipped in a region that is not split (section 6)."),
 ];
 
 /// The color of a kind. Colors differ in hue and in lightness.
