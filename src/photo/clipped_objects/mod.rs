@@ -206,15 +206,16 @@ impl Profile {
     /// The share below which the edge of the area of this radius is abrupt.
     fn most_left(&self, radius_px: f64, clip_threshold: f64) -> f64 {
         let left_of_highlight = (-FALL / radius_px).exp();
-        if self.is_saturated() {
-            return MOST_LEFT_OF_SMALL_SATURATED.max(MOST_LEFT_OF_SATURATED * left_of_highlight);
-        }
-        if radius_px < LEAST_TELLING_RADIUS_PX {
-            return 0.0;
-        }
-        let is_white = self.area.mean() >= LEAST_OF_WHITE * clip_threshold;
-        let share = if is_white { MOST_LEFT_OF_WHITE } else { 0.0 };
-        MOST_LEFT_OF_AN_EDGE.min(left_of_highlight).max(share * left_of_highlight)
+        let tells = radius_px >= LEAST_TELLING_RADIUS_PX;
+        let of_any_color = if tells { MOST_LEFT_OF_AN_EDGE.min(left_of_highlight) } else { 0.0 };
+        let of_white = if self.is_saturated() {
+            MOST_LEFT_OF_SMALL_SATURATED.max(MOST_LEFT_OF_SATURATED * left_of_highlight)
+        } else if tells && self.area.mean() >= LEAST_OF_WHITE * clip_threshold {
+            MOST_LEFT_OF_WHITE * left_of_highlight
+        } else {
+            0.0
+        };
+        of_any_color.max(of_white)
     }
 }
 
