@@ -3,6 +3,7 @@
 use super::analysis_worker::{self, AnalysisWorker, LatestRequest, Tracing};
 use super::export_input::ExportInput;
 use super::exports::write_export;
+use super::folders::with_photographs_of_folders;
 use super::panics::catch_panic;
 use super::reduce::reduce_report;
 use super::report::{Report, Work, WrittenWorkspace};
@@ -149,6 +150,13 @@ impl Application {
             Effect::ReadTogether(files) => {
                 self.state.jobs.reading = Some(Job::now());
                 self.run("reader", Work::Photograph, move || read::photographs(files));
+            }
+            Effect::FindInFolders(origins) => {
+                self.state.jobs.reading = Some(Job::now());
+                self.run("reader", Work::Folder, move || {
+                    let (files, notes) = with_photographs_of_folders(origins);
+                    Report::FoundInFolders(files, notes)
+                });
             }
             Effect::ReadElsewhere { kind, path, shows } => {
                 let Some(picture) = self.state.picture.clone() else { return };
@@ -322,7 +330,7 @@ mod tests {
         std::fs::copy(TINY, &photo).unwrap();
         let mut application = Application::new(Executor::Inline, || ()).unwrap();
         application.apply(JobCommand::Open(Origin::File(photo)));
-        for work in [Work::Photograph, Work::File, Work::Analysis, Work::Export, Work::WhatIf] {
+        for work in [Work::Photograph, Work::Folder, Work::File, Work::Analysis, Work::Export, Work::WhatIf] {
             let state = &mut application.state;
             state.notices.clear();
             (state.jobs.reading, state.jobs.analysis) = (Some(Job::now()), Some(Job::now()));
@@ -332,7 +340,7 @@ mod tests {
             let state = application.state();
             let jobs = [state.jobs.reading, state.jobs.analysis, state.jobs.export];
             let ended = match work {
-                Work::Photograph | Work::File => jobs[0].is_none(),
+                Work::Photograph | Work::Folder | Work::File => jobs[0].is_none(),
                 Work::Analysis => jobs[1].is_none(),
                 Work::Export => jobs[2].is_none(),
                 _ => true,

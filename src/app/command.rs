@@ -141,6 +141,8 @@ pub enum JobCommand {
     OpenFiles(Vec<Origin>),
     /// As [`Self::OpenFiles`], but of several photographs the first that can be read is shown, and the others follow it in their order.
     OpenFilesFirstShown(Vec<Origin>),
+    /// As [`Self::OpenFilesFirstShown`], where a path may also be that of a folder: the photographs in it are opened.
+    OpenFolders(Vec<Origin>),
     /// Read a photograph and show it, and then read pictures that another program made of it.
     OpenBeside(Origin, ElsewherePaths),
     /// Read a picture that another program made of the open photograph, and show it.

@@ -24,6 +24,8 @@ pub enum Effect {
     Read(Origin, ReadOptions),
     /// Read the photographs of files that are opened together; the other files are read when the photographs are open.
     ReadTogether(FilesToOpen),
+    /// Find the photographs in folders that are opened, among files that are opened together with them.
+    FindInFolders(Vec<Origin>),
     /// Read a picture that another program made of the open photograph.
     ReadElsewhere {
         /// What the picture is.

@@ -20,6 +20,7 @@ mod effect;
 mod export_input;
 mod exports;
 mod files_to_open;
+mod folders;
 mod jobs;
 mod panics;
 mod photographs;

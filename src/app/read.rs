@@ -25,7 +25,7 @@ pub(super) fn picture(origin: Origin, options: ReadOptions) -> Result<Picture, S
     let origin = with_absolute_path(origin);
     let (photo, sha256) = match &origin {
         Origin::File(path) if path.is_dir() => {
-            return Err(format!("{}: this is a folder; open the photographs in it", path.display()));
+            return Err(format!("{}: this is a folder; Ctrl+O opens the photographs in it", path.display()));
         }
         Origin::File(path) if !path.exists() => {
             return Err(format!(
@@ -201,7 +201,7 @@ mod tests {
     fn a_folder_and_a_missing_file_are_answered_with_what_to_do() {
         let root = tempfile::tempdir().unwrap();
         let open = |path: &Path| picture(Origin::File(path.to_owned()), ReadOptions::default()).unwrap_err();
-        assert!(open(root.path()).ends_with("this is a folder; open the photographs in it"));
+        assert!(open(root.path()).ends_with("this is a folder; Ctrl+O opens the photographs in it"));
         assert!(open(&root.path().join("none.png")).contains("there is no such file"));
     }
 }

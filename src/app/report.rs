@@ -1,10 +1,11 @@
 //! The reports of workers. Only [`super::Application`] applies reports to the state.
 
+use super::files_to_open::Note;
 use super::{Document, Preview, WhatIfProgress, WhatIfRequest, Workspace};
 use crate::analysis::Stage;
 use crate::params::Params;
 use crate::trace::Replay;
-use crate::view::{Elsewhere, ElsewhereKind, ElsewherePaths, Picture, ResultSnapshot};
+use crate::view::{Elsewhere, ElsewhereKind, ElsewherePaths, Origin, Picture, ResultSnapshot};
 use std::path::PathBuf;
 use std::sync::Arc;
 
@@ -30,6 +31,8 @@ pub(super) enum Report {
         /// The workspace, still to be read.
         workspace: Option<PathBuf>,
     },
+    /// The photographs in folders were found, which are opened next, and sentences about folders that hold none.
+    FoundInFolders(Vec<Origin>, Vec<Note>),
     /// A photograph could not be read: the sentence to show.
     OpenFailed(String),
     /// A parameter file was read.
@@ -122,6 +125,8 @@ pub(super) enum Report {
 pub(super) enum Work {
     /// Reading a photograph.
     Photograph,
+    /// Finding the photographs in a folder.
+    Folder,
     /// Reading a parameter file or a workspace file.
     File,
     /// Analyzing, recording decisions, and scoring.
@@ -139,6 +144,7 @@ impl Work {
     pub(super) const fn name(self) -> &'static str {
         match self {
             Self::Photograph => "reading the photograph",
+            Self::Folder => "reading the folder",
             Self::File => "reading the file",
             Self::Analysis => "the analysis",
             Self::Export => "the export",

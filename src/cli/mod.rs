@@ -39,7 +39,7 @@ use tracing_subscriber::EnvFilter;
 #[derive(Debug, Parser)]
 #[command(name = "dichroscope", version, args_conflicts_with_subcommands = true)]
 pub struct Arguments {
-    /// Photographs or workspace to open in the window, the first of them shown; none: a sample scene
+    /// Photographs, folders of photographs, or a workspace to open in the window, the first photograph shown; none: a sample scene
     #[arg(value_name = "IMAGE", value_parser = place::parser())]
     pub images: Vec<PathBuf>,
     /// Label map of another program, to hold against the result in the window
@@ -153,7 +153,8 @@ pub fn expect_files_to_show(arguments: &Arguments) -> Result<()> {
     if let Some(word) = images.iter().find(is_unknown) {
         bail!("{}: there is no such file and no such command; --help lists the commands", word.display());
     }
-    if images.len() > 1 && (arguments.labels.is_some() || arguments.diffuse.is_some()) {
+    let are_several = images.len() > 1 || images.iter().any(|image| image.is_dir());
+    if are_several && (arguments.labels.is_some() || arguments.diffuse.is_some()) {
         bail!(
             "--labels and --diffuse belong to one photograph: name that one alone, and open the others in the window"
         );

@@ -33,6 +33,9 @@ struct Saving {
     frames_left: u8,
 }
 
+/// Largest share of the window's height that the names of the photographs take; the buttons stay below them.
+const TEXT_SHARE: f32 = 0.3;
+
 /// Number of frames without a dialog and without writing after which a saving that was chosen has been canceled.
 const FRAMES_TO_BEGIN: u8 = 4;
 
@@ -88,7 +91,10 @@ impl Closing {
             ui.set_max_width(dialog_room::width_within(ui.ctx(), 420.0));
             ui.label(RichText::new("Close without saving?").font(heading_font(BODY_PT)));
             let text = format!("Parameters, marks or area of {names} were changed, and are in no workspace.");
-            ui.add(Label::new(RichText::new(text).color(cx.palette.secondary)).wrap());
+            let room_pt = TEXT_SHARE * ui.ctx().content_rect().height();
+            dialog_room::scrolling(ui, "unsaved photographs", room_pt, |ui| {
+                ui.add(Label::new(RichText::new(text).color(cx.palette.secondary)).wrap());
+            });
             ui.add_space(6.0);
             ui.horizontal_wrapped(|ui| {
                 if closed.is_unsaved(cx.state) && ui.button("Save workspace\u{2026}").clicked() {

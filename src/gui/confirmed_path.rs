@@ -35,14 +35,15 @@ fn workspace_path(path: PathBuf) -> PathBuf {
     PathBuf::from(name)
 }
 
-/// What speaks against the work of a dialog; none where the path is a file that can be read, or can be written now.
+/// What speaks against the work of a dialog; none where the path is a file that can be read, or can be written now. A dialog that opens
+/// photographs also opens those in a folder.
 pub fn problem_of(dialog: Dialog, path: &Path, state: &State) -> Option<String> {
     if !dialog.reads() {
         let busy = "another export is still under way: wait for its end, or cancel it, and then try again";
         let is_busy = state.jobs.export.is_some();
         return is_busy.then(|| busy.to_owned()).or_else(|| problem_of_replacing(path, state));
     }
-    if path.is_file() {
+    if path.is_file() || (dialog == Dialog::Open && path.is_dir()) {
         return None;
     }
     let what = if path.is_dir() {
@@ -90,6 +91,7 @@ mod tests {
         let missing = folder.path().join("x.png");
         assert!(problem_of(Dialog::Open, &missing, &state).unwrap().contains("no such file"));
         assert!(problem_of(Dialog::OpenWorkspace, folder.path(), &state).unwrap().contains("is a folder"));
+        assert_eq!(problem_of(Dialog::Open, folder.path(), &state), None);
         assert_eq!(problem_of(Dialog::Export, &missing, &state), None);
         std::fs::write(&missing, "").unwrap();
         assert_eq!(problem_of(Dialog::Open, &missing, &state), None);

@@ -9,6 +9,7 @@ use egui::{
     Align2, Area, DroppedFile, Event, Frame, HoveredFile, Id, LayerId, Order, RichText, Stroke, StrokeKind,
     Ui, Vec2,
 };
+use std::path::Path;
 use std::sync::Arc;
 
 /// Opens files that were dropped on the window together; returns whether there were any.
@@ -95,11 +96,18 @@ pub fn open_pasted(ui: &Ui, cx: &mut PanelContext) {
     }
 }
 
-/// Opens files, if there are any.
+/// Opens files, if there are any, and the photographs in folders.
 fn open(cx: &mut PanelContext, origins: Vec<Origin>) {
-    if !origins.is_empty() {
+    if origins.iter().any(is_folder) {
+        cx.send(JobCommand::OpenFolders(origins));
+    } else if !origins.is_empty() {
         cx.send(JobCommand::OpenFiles(origins));
     }
+}
+
+/// Whether a path is that of a folder.
+fn is_folder(origin: &Origin) -> bool {
+    origin.path().is_some_and(Path::is_dir)
 }
 
 /// The place of a dropped file: its path, or its bytes where it came without one.
@@ -108,7 +116,7 @@ fn open(cx: &mut PanelContext, origins: Vec<Origin>) {
 /// A sentence, where the file has neither.
 fn origin_of(file: &dyn DroppedFile) -> Result<Origin, String> {
     let path = file.path();
-    if path.is_file() || path.parent().is_some_and(|parent| !parent.as_os_str().is_empty()) {
+    if path.is_file() || path.is_dir() || path.parent().is_some_and(|parent| !parent.as_os_str().is_empty()) {
         return Ok(Origin::File(path.to_path_buf()));
     }
     let name = path.display().to_string();

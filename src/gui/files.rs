@@ -303,6 +303,7 @@ impl Dialogs {
             Some(if dialog.reads() { Waiting::Reading(newest_notice(cx)) } else { Waiting::Writing });
         cx.send(match dialog {
             Dialog::Open if is_workspace(&path) => JobCommand::OpenWorkspace(path),
+            Dialog::Open if path.is_dir() => JobCommand::OpenFolders(vec![Origin::File(path)]),
             Dialog::Open => JobCommand::Open(Origin::File(path)),
             Dialog::LoadParameters => JobCommand::LoadParams(path),
             Dialog::OpenWorkspace => JobCommand::OpenWorkspace(path),

@@ -14,7 +14,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 #[error("no window can be opened here ({0}); `dichroscope analyze PHOTO --out DIR` needs none")]
 pub struct WindowError(String);
 
-/// Opens the window on `files` (photographs, of which the first is shown, or a workspace), or on the sample scene, and returns when it
+/// Opens the window on `files` (photographs, of which the first is shown, folders of photographs, or a workspace), or on the sample scene, and returns when it
 /// is closed. `elsewhere` holds pictures that another program made of the only photograph; a workspace has its own.
 ///
 /// When the graphics device is lost (a driver restarts, a card is unplugged), the window closes, and another window
@@ -60,8 +60,11 @@ pub fn open(files: Vec<PathBuf>, elsewhere: ElsewherePaths) -> Result<(), Window
     }
 }
 
-/// The first job of the window: opens a workspace, photographs, or the sample scene where no file is given.
+/// The first job of the window: opens a workspace, photographs, the photographs in folders, or the sample scene where no file is given.
 fn first_job(files: Vec<PathBuf>, elsewhere: ElsewherePaths) -> JobCommand {
+    if files.iter().any(|path| path.is_dir()) {
+        return JobCommand::OpenFolders(files.into_iter().map(Origin::File).collect());
+    }
     match <[PathBuf; 1]>::try_from(files) {
         Ok([path]) if is_workspace(&path) => JobCommand::OpenWorkspace(path),
         Ok([path]) => JobCommand::OpenBeside(Origin::File(path), elsewhere),

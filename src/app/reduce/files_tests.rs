@@ -75,6 +75,24 @@ fn of_several_files_the_first_that_can_be_read_is_shown_and_the_reason_for_the_o
 }
 
 #[test]
+fn the_photographs_in_a_folder_are_opened_and_the_first_that_can_be_read_is_shown() {
+    let folder = folder();
+    std::fs::create_dir(folder.path().join("empty")).unwrap();
+    let open = |application: &mut Application, path: &Path| {
+        application.apply(JobCommand::OpenFolders(vec![Origin::File(path.to_path_buf())]));
+    };
+    let mut application = Application::new(Executor::Inline, || ()).unwrap();
+    open(&mut application, folder.path());
+    let state = application.state();
+    assert_eq!(names(state), ["a.png", "b.png", "first.png"]);
+    assert!(tells(state, "letter.png") && tells(state, "labels.png is taken for a label map"));
+    open(&mut application, &folder.path().join("empty"));
+    let state = application.state();
+    assert!(tells(state, "no photograph lies in this folder") && state.jobs.reading.is_none());
+    assert_eq!(names(state), ["a.png", "b.png", "first.png"], "nothing else happened");
+}
+
+#[test]
 fn every_photograph_is_opened_in_order_and_the_pictures_of_another_program_belong_to_the_last() {
     let folder = folder();
     let path = |name: &str| folder.path().join(name);

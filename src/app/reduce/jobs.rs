@@ -17,6 +17,7 @@ pub(super) fn reduce(state: &mut State, command: JobCommand) -> Vec<Effect> {
         }
         JobCommand::OpenFiles(origins) => open_files(state, origins, false),
         JobCommand::OpenFilesFirstShown(origins) => open_files(state, origins, true),
+        JobCommand::OpenFolders(origins) => vec![Effect::FindInFolders(origins)],
         JobCommand::OpenBeside(origin, elsewhere) => {
             read_files(state, FilesToOpen { photographs: vec![origin], elsewhere, ..FilesToOpen::default() })
         }
@@ -66,7 +67,7 @@ pub(super) fn reduce(state: &mut State, command: JobCommand) -> Vec<Effect> {
 }
 
 /// Opens files together, each as what it is by its name. `shows_first`: whether the first photograph is to be shown and not the last.
-fn open_files(state: &mut State, origins: Vec<Origin>, shows_first: bool) -> Vec<Effect> {
+pub(super) fn open_files(state: &mut State, origins: Vec<Origin>, shows_first: bool) -> Vec<Effect> {
     let (files, notes) = files_to_open(origins, state.picture.is_some());
     for (severity, text) in notes {
         state.notify_of_files(severity, text);

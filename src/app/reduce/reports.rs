@@ -3,6 +3,7 @@
 use super::debugger::{self, take_trace};
 use super::edits::{analyze, edit_params, forget_defaults, tell_of_parameters};
 use super::elsewhere::{lack_elsewhere, take_elsewhere, warning_of, with_unused_truth};
+use super::jobs::open_files;
 use super::photographs::{keep_open, show_open, take_written};
 use super::questions::take_progress;
 use crate::app::awaited::AfterPin;
@@ -34,6 +35,13 @@ pub(crate) fn reduce_report(state: &mut State, report: Report) -> Vec<Effect> {
             return telling_what_is_closed(state, |state| {
                 open_together(state, photographs, elsewhere, workspace)
             });
+        }
+        Report::FoundInFolders(files, notes) => {
+            state.jobs.reading = None;
+            for (severity, text) in notes {
+                state.notify_of_files(severity, text);
+            }
+            return open_files(state, files, true);
         }
         Report::OpenFailed(reason) => {
             (state.jobs.reading, state.restoring) = (None, None);
@@ -112,7 +120,7 @@ fn end_export(state: &mut State, outcome: Result<String, String>, workspace: Opt
 /// Ends the job of a worker that panicked, and asks for the workspace to be saved.
 fn end_panicked(state: &mut State, work: Work, reason: &str) -> Vec<Effect> {
     match work {
-        Work::Photograph | Work::File => (state.jobs.reading, state.restoring) = (None, None),
+        Work::Photograph | Work::Folder | Work::File => (state.jobs.reading, state.restoring) = (None, None),
         Work::Analysis => state.give_up_analysis(),
         Work::Export => (state.jobs.export, state.jobs.cancels_export) = (None, false),
         Work::WhatIf => state.what_if_job = None,

@@ -12,7 +12,7 @@ use egui::{Key, Modifiers, ViewportCommand, ViewportEvent, ViewportId};
 const QUESTION: &str = "Close without saving?";
 
 /// Closes the window, as the button of the desktop does. Returns whether the window stays open.
-fn close_window(window: &mut Window) -> bool {
+pub fn close_window(window: &mut Window) -> bool {
     let root = window.input_mut().viewports.entry(ViewportId::ROOT).or_default();
     root.events.push(ViewportEvent::Close);
     window.step();

@@ -1,7 +1,10 @@
 //! Tests of menus and lists in a window that is too low for them: every row can be reached, by the wheel and by keys.
 
-use crate::window::{Fixture, Window, answer, apply, click, named, press, says, state, with_gpu};
-use dichroscope::app::{Severity, ViewCommand};
+use crate::closing::close_window;
+use crate::window::{Fixture, Window, answer, apply, click, named, press, says, state, tiny, with_gpu};
+use dichroscope::app::{Edit, JobCommand, Severity, ViewCommand};
+use dichroscope::params::{Parameter, Setting};
+use dichroscope::view::Origin;
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, MouseWheelUnit, TouchPhase, Vec2, pos2, vec2};
 use egui_kittest::kittest::Queryable;
@@ -84,6 +87,32 @@ fn the_export_dialog_keeps_its_path_and_button_within_a_small_window_with_large_
         assert!(is_within(&window, Role::RadioButton, "Figures and tables"), "the last kind at {factor}");
         press(&mut window, Modifiers::NONE, Key::Escape);
         window.run_steps(3);
+    }
+}
+
+#[test]
+fn the_question_before_closing_keeps_its_buttons_within_a_small_window_with_large_text() {
+    let folder = tempfile::tempdir().unwrap();
+    let Some(mut window) = with_gpu(SMALLEST, Fixture::Tiny) else { return };
+    for number in 0..6u8 {
+        let name =
+            format!("a photograph with a long name, as those of a scanner have it, number {number}.png");
+        std::fs::copy(tiny(), folder.path().join(&name)).unwrap();
+        apply(&mut window, JobCommand::Open(Origin::File(folder.path().join(name))));
+        let width = Setting::Value(5.0 + f64::from(number));
+        apply(&mut window, Edit::SetParameter(Parameter::CylinderWidth, width, None));
+    }
+    for factor in [1.0, 1.5, 2.0] {
+        window.ctx.set_zoom_factor(factor);
+        window.run_steps(3);
+        assert!(close_window(&mut window), "the window is held at {factor}");
+        window.run_steps(4);
+        assert!(says(&window, "number 5.png"), "at {factor}");
+        for button in ["Save workspace", "Close without saving", "Cancel"] {
+            assert!(is_within(&window, Role::Button, button), "{button} at {factor}");
+        }
+        press(&mut window, Modifiers::NONE, Key::Escape);
+        window.run_steps(2);
     }
 }
 

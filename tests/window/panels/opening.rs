@@ -279,6 +279,23 @@ fn of_several_dropped_files_every_photograph_and_its_diffuse_picture_are_opened(
 }
 
 #[test]
+fn the_photographs_in_a_folder_are_opened_when_it_is_dropped_or_its_path_is_typed() {
+    let (folder, _) = copies(&["b.png", "a.png"]);
+    let mut window = window();
+    drop_file(&mut window, folder.path(), &[]);
+    assert_eq!(open_names(&window), ["a.png", "b.png"]);
+    let (folder, _) = copies(&["c.png"]);
+    press(&mut window, Modifiers::COMMAND, Key::O);
+    answer(&mut window, folder.path());
+    assert_eq!(open_names(&window)[0], "c.png");
+    assert!(!says(&window, "path of a file"), "the dialog is closed");
+    let empty = tempfile::tempdir().unwrap();
+    press(&mut window, Modifiers::COMMAND, Key::O);
+    answer(&mut window, empty.path());
+    assert!(says(&window, "no photograph lies in this folder"), "the dialog says so and stays");
+}
+
+#[test]
 fn of_several_pasted_paths_those_that_can_be_open_are_opened_and_the_rest_is_told() {
     let names: Vec<String> = (1..=10).map(|number| format!("{number}.png")).collect();
     let names: Vec<&str> = names.iter().map(String::as_str).collect();
