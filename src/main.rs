@@ -4,7 +4,18 @@ mod cli;
 
 use std::process::ExitCode;
 
+/// Size of the block that [`keep_freed_memory`] takes and frees: above that of any image of a picture of a megapixel.
+const FREED_BYTES: usize = 16 << 20;
+
+/// Makes the allocator of glibc keep freed images for the next ones. Freeing a block that was mapped alone raises the sizes from which glibc
+/// maps blocks alone and gives freed memory back to the system (`M_MMAP_THRESHOLD` in mallopt(3)); before, each step of an analysis waits for
+/// fresh pages anew, up to a quarter of its time. Other allocators are not affected.
+fn keep_freed_memory() {
+    drop(std::hint::black_box(Vec::<u8>::with_capacity(FREED_BYTES)));
+}
+
 fn main() -> ExitCode {
+    keep_freed_memory();
     let arguments = match cli::parse() {
         Ok(arguments) => arguments,
         Err(ended) => return ended,

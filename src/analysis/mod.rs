@@ -16,6 +16,7 @@ mod slot;
 mod stages;
 mod stale;
 mod subject;
+mod votes_slot;
 mod warnings;
 mod what_if;
 mod windows;

@@ -133,14 +133,15 @@ impl<'a> Preparation<'a> {
         let (image, factor) = (&self.subject.image, self.factor);
         let (mut masks, mut working) = self.pictures();
         let measured = || NoiseEstimate::measure(&working.image, &working.masks);
-        let noise = noise_findings(image, &masks, if self.automatic_noise { measured() } else { None });
+        let noise = || noise_findings(image, &masks, if self.automatic_noise { measured() } else { None });
+        // Which pixels are dark, which may depend on the noise, does not matter for clipped areas.
+        let (noise, areas) = rayon::join(noise, || self.clipped_areas(&working));
         let mut limits = self.limits;
         if self.automatic_intensity {
             limits.min_intensity = used_params(self.params, &working.image, factor, &noise).min_intensity;
             masks = Arc::new(Arc::unwrap_or_clone(masks).with_dark_pixels(image, &limits));
             working = working.with_dark_pixels(&masks, &limits);
         }
-        let areas = self.clipped_areas(&working, &limits);
         if areas.iter().any(|area| area.verdict == ClippedAreaVerdict::Object) {
             (masks, working) = working.with_objects(masks, &areas);
         }
@@ -159,11 +160,11 @@ impl<'a> Preparation<'a> {
     }
 
     /// The clipped areas of the working picture that are judged.
-    fn clipped_areas(&self, working: &WorkingPicture, limits: &MaskLimits) -> Vec<ClippedArea> {
+    fn clipped_areas(&self, working: &WorkingPicture) -> Vec<ClippedArea> {
         if !self.params.refinements().clipped_objects {
             return Vec::new();
         }
-        clipped_areas(&working.image, &working.masks, limits.clip_threshold)
+        clipped_areas(&working.image, &working.masks, self.limits.clip_threshold)
     }
 
     /// The masks of the photograph, and the working picture.

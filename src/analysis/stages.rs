@@ -7,6 +7,7 @@ use super::resolve::used_params;
 use super::slot::Slot;
 use super::stale::seen_up_to;
 use super::subject::Subject;
+use super::votes_slot::VotesSlot;
 use super::warnings::all_warnings;
 use super::windows::{classify_windows, merged_areas, windows_without_class};
 use super::working_outputs::{MergedAreas, WorkingOutputs};
@@ -30,6 +31,8 @@ pub struct Stages {
     masks: Slot<MaskKey, Arc<Prepared>>,
     classify: Slot<Key, Arc<Windows>>,
     merge: Slot<Key, Arc<MergedAreas>>,
+    /// The votes for the light, which are cast while the linear stage runs: that stage is a chain of steps that one thread takes.
+    votes: VotesSlot<Key>,
     linear: Slot<Key, Arc<MatteRegions>>,
     planar: Slot<Key, Arc<PlanarRegions>>,
     clipping: Slot<Key, Arc<FinalRegions>>,
@@ -112,11 +115,17 @@ impl Stages {
         })?;
         tell(observer, StageOutput::Areas(Arc::clone(&merged.value.map)));
         let (windows_made, areas) = (&windows.value, &merged.value.areas);
+        let votes = self.votes.get(key(Stage::Classify, self.masks.generation()), input, baseline);
         let before = key(Stage::Linear, merged.number);
         let matte = self.linear.get(Stage::Linear, before, observer, |observer, recorder: &mut R| {
             let stop = || observer.cancelled();
             let input = input.stopped_by(&stop);
-            Arc::new(linear_output(&input, baseline, windows_made, areas, recorder))
+            rayon::in_place_scope(|scope| {
+                scope.spawn(|_| {
+                    votes.cast(&input);
+                });
+                Arc::new(linear_output(&input, baseline, windows_made, areas, recorder))
+            })
         })?;
         tell(observer, StageOutput::Matte(Arc::clone(&matte.value)));
         let before = key(Stage::Planar, matte.number);
@@ -124,7 +133,10 @@ impl Stages {
             let stop = || observer.cancelled();
             let input = input.stopped_by(&stop);
             Arc::new(match baseline {
-                None => planar_regions(&input, windows_made, areas, &matte.value, recorder),
+                None => {
+                    let votes = votes.cast(&input);
+                    planar_regions(&input, windows_made, areas, &matte.value, votes, recorder)
+                }
                 Some(baseline) => planar_baseline(&input, baseline, &matte.value, recorder),
             })
         })?;

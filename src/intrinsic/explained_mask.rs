@@ -12,7 +12,7 @@
 
 use super::images::Images;
 use crate::color::Moments;
-use crate::raster::{Border, ComponentSearch, Connectivity, LabelMap, Mask, Raster, RegionId};
+use crate::raster::{Border, ComponentSearch, Connectivity, LabelMap, Mask, Raster, RegionId, pixels_where};
 use crate::segment::{AnalysisInput, FinalRegions, Members, parts};
 use crate::trace::PixelKind;
 
@@ -57,7 +57,7 @@ pub fn explained_mask(
 ) -> Explained {
     let kinds = &images.kinds;
     let mut mask =
-        regions.labels.map(|&label| RegionId::from_label(label).is_some_and(|id| model_fits[id.index()]));
+        regions.labels.par_map(|&label| RegionId::from_label(label).is_some_and(|id| model_fits[id.index()]));
     if !input.refine.region_holds || input.is_marked() {
         return Explained { mask, replaced: None };
     }
@@ -109,11 +109,11 @@ fn is_bright(input: &AnalysisInput, kinds: &Raster<PixelKind>, pixel: usize) -> 
 fn remove_components(
     labels: &LabelMap,
     mask: &mut Mask,
-    belongs: impl Fn(usize) -> bool,
+    belongs: impl Fn(usize) -> bool + Sync,
     mut is_wrong: impl FnMut(&Mask, &[usize]) -> bool,
 ) {
     let mut search = ComponentSearch::new(labels.width(), labels.height(), Connectivity::Four);
-    for start in 0..labels.len() {
+    for start in pixels_where(labels.len(), |pixel| mask[pixel] && belongs(pixel)) {
         let member = |pixel: usize| mask[pixel] && labels[pixel] == labels[start] && belongs(pixel);
         let found = search.component_at(start, member).filter(|component| is_wrong(mask, component));
         for &pixel in found.into_iter().flatten() {

@@ -92,8 +92,10 @@ pub fn judged_plans(input: &AnalysisInput, regions: &FinalRegions) -> JudgedPlan
         let lamps = Lamps::new(&regions.light, regions.second_lamp_mask.as_ref());
         let matte = matte_lines(regions);
         let local_regions = Regions { labels: &regions.labels, members: &members, matte: &matte };
-        let plans = plans(input, regions, &members);
-        let restored = HueRestored::new(input, origin, &regions.light, lamps.as_ref());
+        let (restored, plans) = rayon::join(
+            || HueRestored::new(input, origin, &regions.light, lamps.as_ref()),
+            || plans(input, regions, &members),
+        );
         let picture = PictureToSplit { origin, input, restored: restored.as_ref(), lamps: lamps.as_ref() };
         JudgedPlans(split_by_planes(&picture, plans, &local_regions).plans)
     })
@@ -151,10 +153,13 @@ fn split_from<R: Recorder>(
     let lamps = Lamps::new(&regions.light, regions.second_lamp_mask.as_ref());
     let matte = matte_lines(regions);
     let local_regions = Regions { labels: &regions.labels, members, matte: &matte };
-    let restored = HueRestored::new(input, origin, &regions.light, lamps.as_ref());
+    let (restored, plans) = rayon::join(
+        || HueRestored::new(input, origin, &regions.light, lamps.as_ref()),
+        || plans(input, regions, members),
+    );
     let picture = PictureToSplit { origin, input, restored: restored.as_ref(), lamps: lamps.as_ref() };
     let SplitByPlanes { plans, mut images, mut limited, observations } =
-        split_by_planes(&picture, plans(input, regions, members), &local_regions);
+        split_by_planes(&picture, plans, &local_regions);
     let mut found = Found {
         origin: *origin,
         sigma: input.sigma(),
@@ -175,8 +180,11 @@ fn split_from<R: Recorder>(
         recorder.record(limited);
     }
     let model_fits: Vec<bool> = plans.iter().map(RegionPlan::model_fits).collect();
-    let Explained { mask, replaced } = explained_mask(input, regions, members, &model_fits, &images);
-    (found.explained_mask, found.replaced) = (mask, replaced);
+    let (Explained { mask, replaced }, touching) = rayon::join(
+        || explained_mask(input, regions, members, &model_fits, &images),
+        || neighbors(&regions.labels, regions.hypotheses.len()),
+    );
+    (found.explained_mask, found.replaced, found.touching) = (mask, replaced, touching);
     remove_far_colors(input, &regions.labels, plans, &mut found.explained_mask);
     let explained_mask = &found.explained_mask;
     let local_input = LocalInput {
@@ -194,7 +202,6 @@ fn split_from<R: Recorder>(
         recorder.record(PassBegan { pass: Pass::Labels });
         recorder.labels(&images.kinds);
     }
-    found.touching = neighbors(&regions.labels, regions.hypotheses.len());
     let reports = RegionReports { input, members, kinds: &images.kinds, fit_sigma: found.sigma }
         .of(plans, found.touching.clone());
     let finish = Finish {

@@ -4,7 +4,11 @@
 //! the search starts from and goes on breadth first; the neighbors of each pixel are visited in row-major order.
 
 use super::grid::{LabelMap, Mask, Raster, UNASSIGNED};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
+
+/// Least number of pixels that one task of [`pixels_where`] looks at.
+const PIXELS_PER_TASK: usize = 1 << 14;
 
 /// Which pixels are neighbors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,6 +60,13 @@ impl ComponentSearch {
     }
 }
 
+/// The pixels of a picture of so many pixels for which `is_member` is true, in ascending order, computed in parallel: from these alone a search
+/// of components begins.
+pub fn pixels_where(pixels: usize, is_member: impl Fn(usize) -> bool + Sync) -> Vec<usize> {
+    let chosen = (0..pixels).into_par_iter().with_min_len(PIXELS_PER_TASK);
+    chosen.filter(|&pixel| is_member(pixel)).collect()
+}
+
 /// Calls `visit` with the mask and each neighbor of a pixel, in row-major order. With [`Connectivity::Eight`] the pixel
 /// itself is among them.
 #[inline]
@@ -98,7 +109,7 @@ impl Components {
         let mut search = ComponentSearch::new(mask.width(), mask.height(), connectivity);
         let mut of = mask.map(|_| Self::NONE);
         let mut sizes = Vec::new();
-        for start in 0..mask.len() {
+        for start in pixels_where(mask.len(), |pixel| mask[pixel]) {
             if let Some(component) = search.component_at(start, |pixel| mask[pixel]) {
                 for &pixel in component {
                     of[pixel] = sizes.len() as u32;

@@ -15,7 +15,7 @@ mod roi;
 
 pub use blocks::Blocks;
 pub(crate) use blur::blur;
-pub(crate) use components::{Border, ComponentSearch, Components, Connectivity};
+pub(crate) use components::{Border, ComponentSearch, Components, Connectivity, pixels_where};
 pub(crate) use covering::disjoint_rectangles;
 pub use grid::{LabelMap, Mask, Raster, UNASSIGNED};
 pub use ids::{HypothesisId, PixelIndex, RegionId};

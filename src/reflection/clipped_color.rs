@@ -43,8 +43,10 @@ impl ClippedColorTest {
         let wanted: [f32; 3] =
             std::array::from_fn(|band| color[band].min(self.clip_threshold) - self.origin[band]);
         // At the least sum, each clipped band either lacks light and counts like a known one, or does not count.
-        let sets =
-            (0u8..8).map(|set| std::array::from_fn(|band| !is_clipped[band] || set & (1 << band) != 0));
+        let clipped_bands = (0..3).map(|band| u8::from(is_clipped[band]) << band).sum::<u8>();
+        let sets = (0u8..8)
+            .filter(|set| set & !clipped_bands == 0)
+            .map(|set| std::array::from_fn(|band| !is_clipped[band] || set & (1 << band) != 0));
         let squares = sets.map(|counted: [bool; 3]| {
             let only =
                 |vector: [f32; 3]| std::array::from_fn(|band| if counted[band] { vector[band] } else { 0.0 });

@@ -1,7 +1,11 @@
 //! Which regions lie next to one another.
 
 use crate::raster::{HypothesisId, LabelMap, UNASSIGNED};
+use rayon::prelude::*;
 use std::collections::BTreeSet;
+
+/// Number of rows that one task of [`near_pairs`] looks at.
+const BAND_ROWS: usize = 64;
 
 /// Pairs of hypotheses (smaller number first) of which two pixels lie at most `reach_px` apart along a row or a column.
 pub fn near_hypotheses(labels: &LabelMap, reach_px: usize) -> BTreeSet<(HypothesisId, HypothesisId)> {
@@ -11,6 +15,12 @@ pub fn near_hypotheses(labels: &LabelMap, reach_px: usize) -> BTreeSet<(Hypothes
 
 /// Pairs of labels (smaller number first) of which two pixels lie at most `reach_px` apart along a row or a column.
 pub fn near_pairs(labels: &LabelMap, reach_px: usize) -> BTreeSet<(u16, u16)> {
+    let bands = (0..labels.height()).into_par_iter().step_by(BAND_ROWS);
+    bands.flat_map_iter(|top| near_pairs_of_band(labels, reach_px, top)).collect()
+}
+
+/// The pairs of which the pixel above or on the left lies in the [`BAND_ROWS`] rows from `top` on.
+fn near_pairs_of_band(labels: &LabelMap, reach_px: usize, top: usize) -> BTreeSet<(u16, u16)> {
     let (width, height) = (labels.width(), labels.height());
     let data = labels.as_slice();
     let mut pairs = BTreeSet::new();
@@ -33,7 +43,7 @@ pub fn near_pairs(labels: &LabelMap, reach_px: usize) -> BTreeSet<(u16, u16)> {
             }
         }
     };
-    for y in 0..height {
+    for y in top..height.min(top + BAND_ROWS) {
         let row = labels.row(y);
         for (x, pair) in row.windows(2).enumerate() {
             if pair[0] != pair[1] && pair[0] != UNASSIGNED {

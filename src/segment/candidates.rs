@@ -24,7 +24,7 @@ use super::merge::Areas;
 use super::recorded_labels::Members;
 use crate::color::{Line, Moments, Vec3, axis_angle_deg, closest_points};
 use crate::photo::Masks;
-use crate::raster::{HypothesisId, LabelMap, UNASSIGNED};
+use crate::raster::{HypothesisId, LabelMap, UNASSIGNED, pixels_where};
 use crate::trace::{
     CandidateChosen, CandidateSource, CandidateTested, CandidateVerdict, Class, Measured, Recorder,
 };
@@ -140,10 +140,9 @@ fn leftover_neighbors(
     let width = labels.width();
     let mut leftovers: BTreeMap<u32, Moments> = BTreeMap::new();
     let mut touching: BTreeSet<(HypothesisId, u32)> = BTreeSet::new();
-    for pixel in 0..labels.len() {
-        if !is_of_candidate(labels, input.masks, input.readings.distorted_candidates, pixel) {
-            continue;
-        }
+    let with_distorted = input.readings.distorted_candidates;
+    let is_of_candidate = |pixel: usize| is_of_candidate(labels, input.masks, with_distorted, pixel);
+    for pixel in pixels_where(labels.len(), is_of_candidate) {
         let area = areas.of_window[windows.window_of(pixel, width)];
         leftovers.entry(area).or_default().add(input.pixels[pixel]);
         labels.for_each_neighbor(pixel, |near| {

@@ -15,7 +15,9 @@ use super::input::AnalysisInput;
 use super::planar_hypothesis::{PlanarHypothesis, PlanarRegions};
 use super::recorded_labels::RecordedLabels;
 use crate::color::{Vec3, dot};
-use crate::raster::{Border, ComponentSearch, Connectivity, HypothesisId, LabelMap, PixelIndex, UNASSIGNED};
+use crate::raster::{
+    Border, ComponentSearch, Connectivity, HypothesisId, LabelMap, PixelIndex, UNASSIGNED, pixels_where,
+};
 use crate::reflection::ClippedColorTest;
 use crate::trace::{GrowthBegan, HoleFilled, Pass, Recorder};
 use rayon::prelude::*;
@@ -141,12 +143,13 @@ struct Hole<'a> {
 /// if `accepts` is true for the hole.
 fn fill<R: Recorder>(
     recorded_labels: &mut RecordedLabels<R>,
-    member: impl Fn(usize) -> bool,
+    member: impl Fn(usize) -> bool + Sync,
     accepts: impl Fn(&Hole) -> bool,
 ) {
     let (width, height) = (recorded_labels.labels.width(), recorded_labels.labels.height());
     let mut search = ComponentSearch::new(width, height, Connectivity::Four);
-    for start in 0..recorded_labels.labels.len() {
+    let labels = &recorded_labels.labels;
+    for start in pixels_where(labels.len(), |pixel| labels[pixel] == UNASSIGNED && member(pixel)) {
         let labels = &recorded_labels.labels;
         let inside = |pixel: usize| labels[pixel] == UNASSIGNED && member(pixel);
         let Some(component) = search.component_at(start, inside) else { continue };

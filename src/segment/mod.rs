@@ -57,3 +57,4 @@ pub use model_fit::RegionVerdict;
 pub use planar::planar_regions;
 pub use planar_hypothesis::{PlanarHypothesis, PlanarRegions};
 pub use regions::{FinalRegions, final_regions};
+pub use vote_light::PictureVotes;

@@ -29,7 +29,7 @@ use super::plane_light::{
 use super::recorded_labels::Members;
 use super::second_lamp::{contradicts, given_second_lamp, second_lamp};
 use super::two_lights::Evidence;
-use super::vote_light::{LEAST_VOTERS, Votes};
+use super::vote_light::{LEAST_VOTERS, PictureVotes};
 use crate::color::{Line, Moments, Vec3, axis_angle_deg};
 use crate::params::LEAST_LAMPS_ANGLE_DEG;
 use crate::raster::HypothesisId;
@@ -46,12 +46,14 @@ const ROUNDS: usize = 3;
 /// than a count across its slice.
 const SETTLED_DEG: f64 = 0.5;
 
-/// Grows matte regions into planar ones and estimates the illuminant.
+/// Grows matte regions into planar ones and estimates the illuminant. `votes`: the votes of small highlights, where they are asked for
+/// ([`PictureVotes::are_asked`]) and there are enough of them.
 pub fn planar_regions<R: Recorder>(
     input: &AnalysisInput,
     windows: &Windows,
     areas: &Areas,
     matte: &MatteRegions,
+    votes: Option<&PictureVotes>,
     recorder: &mut R,
 ) -> PlanarRegions {
     let members = Members::of(&matte.labels, matte.hypotheses.len());
@@ -73,9 +75,9 @@ pub fn planar_regions<R: Recorder>(
     if let Some(direction) = input.used.illuminant {
         under_given_light(state, direction)
     } else if input.refine.robust_illuminant {
-        under_robust_light(state, &members)
+        under_robust_light(state, &members, votes)
     } else {
-        under_average_light(state)
+        under_average_light(state, votes)
     }
 }
 
@@ -120,12 +122,15 @@ fn under_given_light<R: Recorder>(mut state: PlanarState<R>, direction: [f64; 3]
 }
 
 /// The regions under the paper's estimate, the average of the highlight lines.
-fn under_average_light<R: Recorder>(mut state: PlanarState<R>) -> PlanarRegions {
+fn under_average_light<R: Recorder>(
+    mut state: PlanarState<R>,
+    votes: Option<&PictureVotes>,
+) -> PlanarRegions {
     let votes_count = state.input.refine.vote_light;
     let estimate = average_of_lines(&state);
     let light = record_estimate(&mut state, estimate);
     let hypotheses = state.grow_slices(light.direction);
-    let mut regions = under_chosen_light(state, hypotheses, light, &[]);
+    let mut regions = under_chosen_light(state, hypotheses, light, &[], votes);
     // Small highlights are votes only with `vote_light`: without it the average alone decides whether there is a light.
     let is_average = match regions.light.basis {
         LightBasis::Planes => true,
@@ -141,7 +146,11 @@ fn under_average_light<R: Recorder>(mut state: PlanarState<R>) -> PlanarRegions 
 }
 
 /// The regions under the robust estimate, which is repeated with the grown regions. `members`: pixels of the matte regions.
-fn under_robust_light<R: Recorder>(mut state: PlanarState<R>, members: &Members) -> PlanarRegions {
+fn under_robust_light<R: Recorder>(
+    mut state: PlanarState<R>,
+    members: &Members,
+    votes: Option<&PictureVotes>,
+) -> PlanarRegions {
     let mut light = match estimate_beside_matte_regions(&state, members) {
         Some(estimate) => record_estimate(&mut state, estimate),
         None => PlaneLight::none(),
@@ -161,7 +170,7 @@ fn under_robust_light<R: Recorder>(mut state: PlanarState<R>, members: &Members)
         state.reset();
         hypotheses = state.grow_slices(light.direction);
     }
-    under_chosen_light(state, hypotheses, light, &evidence)
+    under_chosen_light(state, hypotheses, light, &evidence, votes)
 }
 
 /// Compares the light by the planes with the votes of small highlights (`vote_light`), and carries out what `choice`
@@ -172,6 +181,7 @@ fn under_chosen_light<R: Recorder>(
     mut hypotheses: Vec<PlanarHypothesis>,
     planes: PlaneLight,
     evidence: &[Evidence],
+    votes: Option<&PictureVotes>,
 ) -> PlanarRegions {
     let mut decision = LightDecision::planes_alone(&planes);
     let mut light = LightFindings {
@@ -180,15 +190,11 @@ fn under_chosen_light<R: Recorder>(
         ..LightFindings::default()
     };
     if state.input.refine.vote_light && !state.input.stopped() {
-        let votes = Votes::cast(state.input);
         let support = highlight_support(state.input, &state.recorded_labels.labels, &hypotheses);
         let light_evidence = LightEvidence {
             planes,
-            votes: votes.as_ref().map(|votes| votes.elect(state.input)),
-            planes_share: votes
-                .as_ref()
-                .zip(planes.direction)
-                .map_or(0.0, |(votes, light)| votes.share(&light)),
+            votes: votes.map(|votes| votes.light),
+            planes_share: votes.zip(planes.direction).map_or(0.0, |(votes, light)| votes.votes.share(&light)),
             support,
         };
         decision = choose_light(&light_evidence);
@@ -199,7 +205,7 @@ fn under_chosen_light<R: Recorder>(
         }
         light.votes = light_evidence.votes.map(|votes| votes.result.direction);
         light.support = support;
-        light.share = votes.zip(decision.direction).map_or(0.0, |(votes, used)| votes.share(&used));
+        light.share = votes.zip(decision.direction).map_or(0.0, |(votes, used)| votes.votes.share(&used));
     }
     if let Some(direction) = decision.direction
         && (divide_between_given_lamps(&mut state, &hypotheses, &direction)

@@ -3,9 +3,13 @@
 
 use crate::raster::{HypothesisId, LabelMap, PixelIndex, UNASSIGNED};
 use crate::trace::{Pass, PassBegan, Recorder};
+use rayon::prelude::*;
 
 /// Number of pixels that a region grows from between two checks whether to stop: about a millisecond.
 const PIXELS_PER_POLL: usize = 1 << 16;
+
+/// Number of rows that one task of [`Members::of`] looks at.
+const BAND_ROWS: usize = 64;
 
 /// A label map that changes, and the recorder of each change.
 pub struct RecordedLabels<'a, R: Recorder> {
@@ -135,19 +139,11 @@ pub struct Pixels<'a> {
 impl Members {
     /// Sorts the pixels of `labels` by region, for `regions` regions.
     pub fn of(labels: &LabelMap, regions: usize) -> Self {
-        let mut found: Vec<(u16, u32, u32)> = Vec::new();
-        let mut start = 0;
-        for y in 0..labels.height() {
-            for run in labels.row(y).chunk_by(|a, b| a == b) {
-                if run[0] != UNASSIGNED {
-                    found.push((run[0], start, run.len() as u32));
-                }
-                start += run.len() as u32;
-            }
-        }
+        let bands = (0..labels.height()).into_par_iter().step_by(BAND_ROWS);
+        let found: Vec<Vec<(u16, u32, u32)>> = bands.map(|top| runs_of_band(labels, top)).collect();
         let mut starts = vec![0usize; regions + 2];
         let mut sizes = vec![0usize; regions + 1];
-        for &(label, _, length) in &found {
+        for &(label, _, length) in found.iter().flatten() {
             starts[usize::from(label) + 1] += 1;
             sizes[usize::from(label)] += length as usize;
         }
@@ -155,8 +151,8 @@ impl Members {
             starts[i] += starts[i - 1];
         }
         let mut next = starts.clone();
-        let mut runs = vec![(0u32, 0u32); found.len()];
-        for (label, first, length) in found {
+        let mut runs = vec![(0u32, 0u32); found.iter().map(Vec::len).sum()];
+        for (label, first, length) in found.into_iter().flatten() {
             let at = &mut next[usize::from(label)];
             runs[*at] = (first, length);
             *at += 1;
@@ -169,6 +165,21 @@ impl Members {
         let id = usize::from(id.into());
         Pixels { runs: &self.runs[self.starts[id]..self.starts[id + 1]], size: self.sizes[id] }
     }
+}
+
+/// Label, first pixel and length of each run of pixels of one region in the [`BAND_ROWS`] rows from `top` on.
+fn runs_of_band(labels: &LabelMap, top: usize) -> Vec<(u16, u32, u32)> {
+    let mut found = Vec::new();
+    for y in top..labels.height().min(top + BAND_ROWS) {
+        let mut start = (y * labels.width()) as u32;
+        for run in labels.row(y).chunk_by(|a, b| a == b) {
+            if run[0] != UNASSIGNED {
+                found.push((run[0], start, run.len() as u32));
+            }
+            start += run.len() as u32;
+        }
+    }
+    found
 }
 
 impl<'a> Pixels<'a> {

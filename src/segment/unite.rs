@@ -13,6 +13,7 @@ use super::recorded_labels::{Members, Pixels, RecordedLabels};
 use crate::color::{Cylinder, Line, Moments, axis_angle_deg};
 use crate::raster::{HypothesisId, LabelMap, PixelIndex, UNASSIGNED};
 use crate::trace::{Contest, Measure, Recorder, RegionsMerged};
+use rayon::prelude::*;
 use std::collections::BTreeMap;
 
 /// Largest distance between parts of one object, pixels.
@@ -25,6 +26,8 @@ const RMS_RATIO: f64 = 1.25;
 const RMS_FLOOR: f64 = 0.6;
 /// Largest distance along rows and columns of a pixel that takes part in a vote, pixels.
 const VOTE_RADIUS: usize = 2;
+/// Least number of rows that one task searches for contested pixels.
+const ROWS_PER_TASK: usize = 64;
 /// Share of the votes that wins a pixel.
 const MAJORITY_PERCENT: usize = 60;
 
@@ -151,26 +154,30 @@ pub fn vote<R: Recorder>(
 
 /// Pixels of which a 4-neighbor belongs to another region, ascending.
 fn contested(labels: &LabelMap) -> Vec<usize> {
-    let width = labels.width();
+    let rows = (0..labels.height()).into_par_iter().with_min_len(ROWS_PER_TASK);
+    let mut found: Vec<usize> = rows.flat_map_iter(|y| contested_at_row(labels, y)).collect();
+    found.sort_unstable();
+    found.dedup();
+    found
+}
+
+/// The pixels of row `y` and of the row below whose neighbor in row `y`, or above or below across both rows, belongs to another region.
+fn contested_at_row(labels: &LabelMap, y: usize) -> Vec<usize> {
+    let (width, row) = (labels.width(), labels.row(y));
     let differ = |a: u16, b: u16| a != b && a != UNASSIGNED && b != UNASSIGNED;
     let mut found = Vec::new();
-    for y in 0..labels.height() {
-        let row = labels.row(y);
-        for (x, pair) in row.windows(2).enumerate() {
-            if differ(pair[0], pair[1]) {
-                found.extend([y * width + x, y * width + x + 1]);
-            }
+    for (x, pair) in row.windows(2).enumerate() {
+        if differ(pair[0], pair[1]) {
+            found.extend([y * width + x, y * width + x + 1]);
         }
-        if y + 1 < labels.height() {
-            for (x, (&own, &below)) in row.iter().zip(labels.row(y + 1)).enumerate() {
-                if differ(own, below) {
-                    found.extend([y * width + x, (y + 1) * width + x]);
-                }
+    }
+    if y + 1 < labels.height() {
+        for (x, (&own, &below)) in row.iter().zip(labels.row(y + 1)).enumerate() {
+            if differ(own, below) {
+                found.extend([y * width + x, (y + 1) * width + x]);
             }
         }
     }
-    found.sort_unstable();
-    found.dedup();
     found
 }
 

@@ -98,6 +98,29 @@ pub struct VoteLight {
     pub interval_deg: f64,
 }
 
+/// The votes of a picture and the light that they elect. Both depend on the picture and its masks alone, and not on regions.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PictureVotes {
+    /// All votes.
+    pub(super) votes: Votes,
+    /// The elected light.
+    pub(super) light: VoteLight,
+}
+
+impl PictureVotes {
+    /// Whether the planar stage asks for votes: `vote_light` is on, and no light is given.
+    pub fn are_asked(input: &AnalysisInput) -> bool {
+        input.refine.vote_light && input.used.illuminant.is_none()
+    }
+
+    /// The votes of the picture `input`; `None` where there are fewer than [`LEAST_VOTERS`] voters.
+    pub fn of(input: &AnalysisInput) -> Option<Self> {
+        let votes = Votes::cast(input)?;
+        let light = votes.elect(input);
+        Some(Self { votes, light })
+    }
+}
+
 /// Share of the lit pixels, evenly chosen, whose color is within [`BODY_DEG`] of `color`, unit.
 fn share_of_color(input: &AnalysisInput, color: &Vec3) -> f64 {
     let step = input.pixels.len().div_ceil(MOST_COMPARED).max(1);
@@ -113,7 +136,7 @@ fn share_of_color(input: &AnalysisInput, color: &Vec3) -> f64 {
 
 impl Votes {
     /// The elected light of the picture `input`.
-    pub fn elect(&self, input: &AnalysisInput) -> VoteLight {
+    fn elect(&self, input: &AnalysisInput) -> VoteLight {
         let winner = self.winner();
         let result = VoteResult {
             direction: winner.into(),
@@ -132,7 +155,7 @@ impl Votes {
     }
 
     /// The votes of a picture; `None` where there are fewer than [`LEAST_VOTERS`] voters.
-    pub fn cast(input: &AnalysisInput) -> Option<Self> {
+    fn cast(input: &AnalysisInput) -> Option<Self> {
         let size = (input.pixels.width(), input.pixels.height());
         let margin_px = (4.0 * COARSE_PX) as usize;
         let window = Roi::around(size, margin_px, |pixel| !input.masks.dark(pixel))?;

@@ -3,7 +3,7 @@
 use crate::analysis::working_outputs::WorkingOutputs;
 use crate::intrinsic::{Intrinsic, Reason};
 use crate::photo::Masks;
-use crate::raster::{Border, ComponentSearch, Connectivity, Mask, RegionId, dilate, erode};
+use crate::raster::{Border, ComponentSearch, Connectivity, Mask, RegionId, dilate, erode, pixels_where};
 
 /// A patch contains a square of unexplained working pixels that reaches this far from its middle: what is narrower is the mixed
 /// colors at a border.
@@ -24,8 +24,8 @@ pub(super) fn patches(masks: &Masks, working: &WorkingOutputs) -> Option<Mask> {
     let wide = dilate(&cores, PATCH_REACH_PX);
     let mut kept = left.map(|_| false);
     let mut search = ComponentSearch::new(labels.width(), labels.height(), Connectivity::Four);
-    for start in 0..labels.len() {
-        let inside = |pixel: usize| left[pixel] && wide[pixel];
+    let inside = |pixel: usize| left[pixel] && wide[pixel];
+    for start in pixels_where(labels.len(), inside) {
         let Some(patch) = search.component_at(start, inside) else { continue };
         let beside = Border::of(labels, patch, |pixel| !inside(pixel)).main_region();
         let region = beside.and_then(|(label, _)| RegionId::from_label(label));

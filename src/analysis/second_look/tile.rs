@@ -10,8 +10,8 @@ use crate::params::{Refine, Stage};
 use crate::photo::{Masks, WorkingPicture};
 use crate::raster::{Blocks, LabelMap, Mask, RegionId, Roi, UNASSIGNED};
 use crate::segment::{
-    AnalysisInput, FinalRegions, PlanarHypothesis, clipping_regions, final_regions, full_resolution_labels,
-    matte_regions, planar_regions,
+    AnalysisInput, FinalRegions, PictureVotes, PlanarHypothesis, clipping_regions, final_regions,
+    full_resolution_labels, matte_regions, planar_regions,
 };
 use crate::trace::{Recorder, SecondLookRecord, StageTrace, Trace};
 use std::marker::PhantomData;
@@ -127,8 +127,10 @@ fn regions_and_plans<R: Recorder>(
     if !R::KEEPS && !matte.hypotheses.iter().any(|hypothesis| hypothesis.alive) {
         return None;
     }
-    let planar =
-        records.stage(Stage::Planar, |recorder| planar_regions(input, &windows, areas, &matte, recorder));
+    let planar = records.stage(Stage::Planar, |recorder| {
+        let votes = PictureVotes::are_asked(input).then(|| PictureVotes::of(input)).flatten();
+        planar_regions(input, &windows, areas, &matte, votes.as_ref(), recorder)
+    });
     let mut regions = records.stage(Stage::Clipping, |recorder| {
         let labels = clipping_regions(input, &planar, recorder);
         final_regions(input, labels, &planar, recorder)

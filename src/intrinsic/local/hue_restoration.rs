@@ -17,7 +17,7 @@ use super::lamps::{Lamp, Lamps};
 use super::surroundings::{Surroundings, harmonic};
 use crate::color::length;
 use crate::photo::Masks;
-use crate::raster::{ComponentSearch, Connectivity, PixelIndex, Raster, Roi};
+use crate::raster::{ComponentSearch, Connectivity, PixelIndex, Raster, Roi, pixels_where};
 use crate::segment::{AnalysisInput, LightFindings};
 use crate::trace::{LocalLimits, RestoredBand};
 use rayon::prelude::*;
@@ -118,7 +118,7 @@ fn blobs_to_restore(input: &AnalysisInput, thresholds: &[f32; 3]) -> Vec<Vec<usi
     let has_single = |&pixel: &usize| only_clipped_band(input.pixels[pixel], thresholds).is_some();
     let mut search = ComponentSearch::new(input.pixels.width(), input.pixels.height(), Connectivity::Eight);
     let mut blobs = Vec::new();
-    for start in 0..input.pixels.len() {
+    for start in pixels_where(input.pixels.len(), clipped) {
         let blob = search.component_at(start, clipped);
         blobs.extend(
             blob.filter(|blob| blob.len() <= MOST_PIXELS && blob.iter().any(has_single)).map(<[_]>::to_vec),

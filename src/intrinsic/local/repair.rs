@@ -13,7 +13,7 @@
 use super::desaturation_map::DesaturationMap;
 use super::surroundings::{Surroundings, harmonic};
 use crate::intrinsic::images::Images;
-use crate::raster::{ComponentSearch, Connectivity, Mask, PixelIndex, Raster, Roi};
+use crate::raster::{ComponentSearch, Connectivity, Mask, PixelIndex, Raster, Roi, pixels_where};
 use crate::segment::AnalysisInput;
 use crate::trace::{Measured, PixelKind, RepairTried, RepairVerdict};
 
@@ -72,7 +72,7 @@ pub fn fills(
     let clipped_before = |pixel: usize| unexplained[pixel] && original.masks.clipped(pixel);
     let clipped = |pixel: usize| unexplained[pixel] && input.masks.clipped(pixel);
     let mut fills = Vec::new();
-    for start in 0..unexplained.len() {
+    for start in pixels_where(unexplained.len(), clipped_before) {
         let Some(whole) = whole_blobs.component_at(start, clipped_before) else { continue };
         if input.stopped() {
             break;

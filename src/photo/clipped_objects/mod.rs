@@ -22,7 +22,7 @@
 //! The pixels of an object and of its edge are not analyzed: they keep the colors of the photograph.
 
 use super::{LinearImage, Masks};
-use crate::raster::{ComponentSearch, Connectivity, Mask, Raster};
+use crate::raster::{ComponentSearch, Connectivity, Mask, Raster, pixels_where};
 
 /// Least radius of an area that is judged, pixels.
 const LEAST_RADIUS_PX: f64 = 1.0;
@@ -234,11 +234,14 @@ impl Areas {
     fn new(image: &LinearImage, masks: &Masks, clip_threshold: f64) -> Option<Self> {
         let (width, height) = masks.shape();
         let clipped = |pixel: usize| masks.clipped(pixel) && masks.has_value(pixel);
-        let first = (0..width * height).find(|&pixel| clipped(pixel))?;
+        let all_clipped = pixels_where(width * height, clipped);
+        if all_clipped.is_empty() {
+            return None;
+        }
         let mut search = ComponentSearch::new(width, height, Connectivity::Eight);
         let mut owners = Raster::filled(width, height, 0u32);
         let mut profiles = Vec::new();
-        for start in first..owners.len() {
+        for &start in &all_clipped {
             let Some(area) = search.component_at(start, clipped) else { continue };
             let mut profile = Profile::default();
             for &pixel in area {
