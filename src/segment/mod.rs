@@ -20,6 +20,7 @@ mod matte;
 mod matte_areas;
 mod merge;
 mod model_fit;
+mod object_parts;
 mod planar;
 mod planar_hypothesis;
 mod planar_state;
@@ -40,8 +41,9 @@ pub(crate) use candidates::{HighlightLine, MatteLine, is_of_candidate, marked_hi
 pub(crate) use choice::LIGHT_LIMITS;
 pub(crate) use linear::{line_fit, matte_length};
 pub(crate) use model_fit::{FittedPlane, NewEdges, RegionFit};
+pub(crate) use object_parts::parts;
 pub(crate) use recorded_labels::{Members, Pixels, RecordedLabels};
-pub(crate) use regions::{members, neighbors, parts};
+pub(crate) use regions::{members, neighbors};
 #[cfg(test)]
 pub(crate) use second_lamp::LAMP_LIMITS;
 
