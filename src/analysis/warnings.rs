@@ -25,6 +25,11 @@ pub enum RunWarning {
         /// Whether the run was restricted to an area.
         is_restricted: bool,
     },
+    /// Every pixel that is not darker than the minimal intensity is clipped, bloomed, or of a clipped object.
+    Clipped {
+        /// Whether the run was restricted to an area.
+        is_restricted: bool,
+    },
     /// No window varies along one direction beyond the noise.
     NoLinearArea,
     /// The color of the light is unknown, as these findings tell.
@@ -140,8 +145,14 @@ fn region_warnings(
 ) -> Vec<RunWarning> {
     let (labels, planar, used) = (&analysis.finals.labels, &analysis.planar, &analysis.used);
     let mut warnings = Vec::new();
-    if !(0..labels.len()).into_par_iter().any(|pixel| !masks.dark(pixel)) {
-        warnings.push(RunWarning::Dark { is_restricted });
+    let pixels = || (0..labels.len()).into_par_iter();
+    if !pixels().any(|pixel| masks.usable(pixel)) {
+        let are_clipped = pixels().any(|pixel| masks.clipped(pixel) && masks.has_value(pixel));
+        warnings.push(if are_clipped {
+            RunWarning::Clipped { is_restricted }
+        } else {
+            RunWarning::Dark { is_restricted }
+        });
     } else if !has_regions {
         warnings.push(RunWarning::NoLinearArea);
     } else if planar.illuminant.is_none() {

@@ -2,7 +2,7 @@
 
 use crate::common::{METHODS, analyze, any_readings, assert_valid, faults, picture};
 use crate::synthetic::{Random, Scene};
-use dichroscope::analysis::{Analysis, Session};
+use dichroscope::analysis::{Analysis, RunWarning, Session};
 use dichroscope::describe::sentences;
 use dichroscope::params::{Method, Parameter, Params, Setting, Switch};
 use dichroscope::photo::LinearImage;
@@ -83,6 +83,18 @@ fn ends_of_ranges(method: Method) -> Vec<(String, Params)> {
     }
     all.push(("everything automatic".to_owned(), automatic));
     all
+}
+
+#[test]
+fn a_picture_without_a_pixel_that_can_be_used_says_whether_all_is_dark_or_clipped() {
+    let first = |image: &LinearImage| analyze(image, &Params::default()).warnings[0].clone();
+    let white_square = |x: usize, y: usize| if x.max(y) < 20 { [255.0; 3] } else { [0.0; 3] };
+    assert_eq!(first(&picture(40, 30, |_, _| [0.0; 3])), RunWarning::Dark { is_restricted: false });
+    for clipped in [picture(40, 30, |_, _| [255.0; 3]), picture(40, 30, white_square)] {
+        assert_eq!(first(&clipped), RunWarning::Clipped { is_restricted: false });
+    }
+    let gray_square = |x: usize, y: usize| if x.max(y) < 20 { [90.0; 3] } else { [0.0; 3] };
+    assert!(matches!(first(&picture(40, 30, gray_square)), RunWarning::UnknownLight(_)));
 }
 
 #[test]

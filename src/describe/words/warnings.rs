@@ -18,13 +18,22 @@ pub fn grouped_sentences(warnings: &[impl fmt::Display]) -> Vec<String> {
     warnings.iter().map(|warning| with_grouped_numbers(&warning.to_string())).collect()
 }
 
+/// All pixels of the picture or of the area that a run was restricted to, as the subject of a sentence.
+const fn every_pixel(is_restricted: bool) -> &'static str {
+    if is_restricted { "every pixel of the area" } else { "every pixel" }
+}
+
 impl fmt::Display for RunWarning {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match *self {
             Self::Dark { is_restricted } => {
-                let which = if is_restricted { "every pixel of the area" } else { "every pixel" };
-                write!(f, "{which} is darker than the minimal intensity: nothing was analyzed")
+                write!(f, "{} is darker than the minimal intensity: nothing was analyzed", every_pixel(is_restricted))
             }
+            Self::Clipped { is_restricted } => write!(
+                f,
+                "{} that is bright enough is clipped or beside clipped ones: nothing was analyzed; a shorter exposure holds the colors",
+                every_pixel(is_restricted)
+            ),
             Self::NoLinearArea => {
                 f.write_str("no linear area was found: no window varies along one direction beyond the noise")
             }
