@@ -113,7 +113,7 @@ impl PictureVotes {
         input.refine.vote_light && input.used.illuminant.is_none()
     }
 
-    /// The votes of the picture `input`; `None` where there are fewer than [`LEAST_VOTERS`] voters.
+    /// The votes of the picture `input`; `None` where there are fewer than `LEAST_VOTERS` voters.
     pub fn of(input: &AnalysisInput) -> Option<Self> {
         let votes = Votes::cast(input)?;
         let light = votes.elect(input);
