@@ -48,7 +48,7 @@ const LARGE_PX: [[usize; 2]; 3] = [[4000, 3000], [6000, 4000], [12_000, 8000]];
 
 fn main() {
     // As the program does at its start (`keep_freed_memory`), so that a run does not wait for fresh memory.
-    drop(black_box(Vec::<u8>::with_capacity(16 << 20)));
+    drop(black_box(Vec::<u8>::with_capacity(6 << 20)));
     // `cargo bench` passes `--bench`. Without it (`cargo test --benches`), one run shows that the benchmark works.
     let asked = |name: &str| std::env::args().any(|argument| argument == name);
     let runs = if asked("--bench") { 15 } else { 1 };

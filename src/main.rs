@@ -4,8 +4,9 @@ mod cli;
 
 use std::process::ExitCode;
 
-/// Size of the block that [`keep_freed_memory`] takes and frees: above that of any image of a picture of a megapixel.
-const FREED_BYTES: usize = 16 << 20;
+/// Size of the block that [`keep_freed_memory`] takes and frees: above that of any image of a picture of a third of a megapixel. With larger
+/// blocks a photograph of 12 megapixels needs more memory at once.
+const FREED_BYTES: usize = 6 << 20;
 
 /// Makes the allocator of glibc keep freed images for the next ones. Freeing a block that was mapped alone raises the sizes from which glibc
 /// maps blocks alone and gives freed memory back to the system (`M_MMAP_THRESHOLD` in mallopt(3)); before, each step of an analysis waits for
